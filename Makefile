@@ -1,0 +1,40 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+
+SHELL := /bin/bash
+PYTHON ?=
+DEMO_FLAGS ?=
+TEST_FLAGS ?=
+BENCH_FLAGS ?=
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo test lint bench clean
+
+help:
+	@echo 'make setup   make .venv (ROS included, where there is none) and build the packages'
+	@echo 'make demo    simulated hand and node, the three services, pictures in build/demo/'
+	@echo '             (DEMO_FLAGS=--keep runs until Ctrl-C)'
+	@echo 'make test    all tests (TEST_FLAGS goes to pytest)'
+	@echo 'make lint    style of the code'
+	@echo 'make bench   the figures of docs/performance.md (BENCH_FLAGS goes to it)'
+	@echo 'make clean   remove .venv, build/, install/ and log/'
+	@echo 'PYTHON=/path/to/python3.12 chooses the interpreter'
+
+setup:
+	@PYTHON='$(PYTHON)' scripts/setup.sh
+
+demo: setup
+	@. ./env.sh && exec install/grasp_quality_hand/lib/grasp_quality_hand/demo $(DEMO_FLAGS)
+
+test: setup
+	@. ./env.sh && exec python -m pytest test grasp_quality_hand/test $(TEST_FLAGS)
+
+lint: setup
+	@. ./env.sh && exec scripts/lint.sh
+
+bench: setup
+	@. ./env.sh && exec python -m benchmarks $(BENCH_FLAGS)
+
+clean:
+	rm -rf .venv build install log .pytest_cache .hypothesis
+	find . -name __pycache__ -prune -exec rm -rf {} +

@@ -1,0 +1,19 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+
+# Puts .venv and install/ into a bash or zsh:  . ./env.sh
+# Discovery and transport stay as they are: a hand on the network must be found. The demo and the
+# tests keep to this machine by themselves.
+
+grasp_quality_root=$(builtin cd "$(dirname "${BASH_SOURCE[0]:-${(%):-%x}}")" && pwd)
+if [ -f "$grasp_quality_root/install/setup.bash" ]; then
+    . "$grasp_quality_root/.venv/bin/activate"
+    . "$grasp_quality_root/install/setup.${ZSH_VERSION:+z}${BASH_VERSION:+ba}sh"
+    export GRASP_QUALITY_DCLAW_DIR="$grasp_quality_root/.venv/share/dclaw"
+    unset grasp_quality_root
+else
+    echo "error: nothing is built in $grasp_quality_root: run make setup first" >&2
+    unset grasp_quality_root
+    return 1
+fi

@@ -1,0 +1,32 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""Install the package grasp_quality_hand: the hand's side of grasp_quality."""
+
+from setuptools import setup
+
+NAME = 'grasp_quality_hand'
+
+setup(
+    name=NAME,
+    version='0.1.0',
+    packages=[NAME],
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
+        (f'share/{NAME}', ['package.xml']),
+    ],
+    install_requires=['setuptools', 'numpy', 'mujoco-core', 'matplotlib'],
+    extras_require={'test': ['pytest']},
+    zip_safe=True,
+    author='The grasp_quality authors',
+    maintainer='The grasp_quality authors',
+    maintainer_email='grasp_quality@example.com',
+    description='A simulated three-finger hand (D\'Claw) and a demo for grasp_quality.',
+    license='Apache-2.0',
+    entry_points={
+        'console_scripts': [
+            'demo = grasp_quality_hand.demo:main',
+            'fetch_dclaw = grasp_quality_hand.fetch_dclaw:main',
+            'simulated_hand = grasp_quality_hand.simulated_hand_node:main',
+        ],
+    },
+)

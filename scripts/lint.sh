@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+
+# The ament linters, the licence headers and the length of the files.
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+code=0
+folders=()
+for folder in grasp_quality msg_adapters launch test examples benchmarks scripts \
+    grasp_quality_msgs grasp_quality_hand; do
+    [ -d "$folder" ] && folders+=("$folder")
+done
+
+ament_flake8 setup.py "${folders[@]}" || code=1
+ament_pep257 setup.py "${folders[@]}" || code=1
+
+mapfile -t sources < <(find setup.py env.sh Makefile .ci "${folders[@]}" -type f \
+    \( -name '*.py' -o -name '*.sh' -o -name '*.msg' -o -name '*.srv' -o -name 'CMakeLists.txt' \
+    -o -name Makefile -o -name run \))
+headless=$(grep -L -e '^# SPDX-License-Identifier: Apache-2.0$' "${sources[@]}")
+[ -z "$headless" ] || { printf 'no licence header: %s\n' $headless; code=1; }
+long=$(wc -l "${sources[@]}" | awk '$2 != "total" && $1 > 250 {print $2 ": " $1 " lines"}')
+[ -z "$long" ] || { printf 'over 250 lines: %s\n' "$long"; code=1; }
+
+[ $code -eq 0 ] && echo "lint: ${#sources[@]} files clean"
+exit $code

@@ -1,0 +1,30 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""Install the package grasp_quality: core library, message adapters and node."""
+
+from glob import glob
+
+from setuptools import setup
+
+NAME = 'grasp_quality'
+
+setup(
+    name=NAME,
+    version='0.1.0',
+    packages=['grasp_quality', 'msg_adapters'],
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
+        (f'share/{NAME}', ['package.xml']),
+        (f'share/{NAME}/config', sorted(glob('config/*'))),
+        (f'share/{NAME}/launch', sorted(glob('launch/*.launch.py'))),
+    ],
+    install_requires=['setuptools', 'numpy', 'scipy', 'clarabel'],
+    extras_require={'reference': ['cvxpy'], 'test': ['pytest', 'hypothesis', 'cvxpy']},
+    zip_safe=True,
+    author='The grasp_quality authors',
+    maintainer='The grasp_quality authors',
+    maintainer_email='grasp_quality@example.com',
+    description='Task-oriented grasp quality from live contacts, with proof and contact forces.',
+    license='Apache-2.0',
+    entry_points={'console_scripts': ['grasp_quality_node = grasp_quality.node:main']},
+)
