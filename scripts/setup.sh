@@ -46,7 +46,7 @@ pip_install() { # pip_install <text> <argument of pip install>...
     local text=$1
     shift
     step "$text" "$venv/bin/python" -m pip install --disable-pip-version-check --retries 2 \
-        --progress-bar off --constraint requirements/constraints.txt "$@" && return
+        --progress-bar off "$@" && return
     tail -n 5 "$step_log" >&2
     grep -qE 'NewConnectionError|ConnectTimeout|NameResolutionError|ProxyError|ReadTimeout' \
         "$step_log" && die "no network: pip cannot reach the package index; see $step_log"
@@ -88,7 +88,18 @@ fi
 PYTHONPATH=grasp_quality_hand${PYTHONPATH:+:$PYTHONPATH} must "D'Claw hand model" \
     "$venv/bin/python" -m grasp_quality_hand.fetch_dclaw "$dclaw"
 
-. "$venv/bin/activate"
-[ -n "$ros" ] || . "$venv/setup.bash"
-must 'Build the packages with colcon' build
+built() { # what install/ is made of; Python modules are symlinks, so that they do not count
+    cat "$venv/stamp"
+    find colcon_defaults.yaml grasp_quality_msgs config launch {.,grasp_quality_hand}/resource \
+        {.,grasp_quality_hand}/{package.xml,setup.py,setup.cfg} -type f \
+        -exec sha256sum {} + 2>/dev/null | sort
+}
+
+wanted=$(built | sha256sum)
+if [ "$wanted" != "$(cat install/stamp 2>/dev/null)" ]; then
+    . "$venv/bin/activate"
+    [ -n "$ros" ] || . "$venv/setup.bash"
+    must 'Build the packages with colcon' build
+    echo "$wanted" >install/stamp
+fi
 printf 'ready after %d s: enter with  . ./env.sh\n' $((SECONDS - started))
