@@ -1,0 +1,71 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""Checked, read-only float64 arrays: how every number enters the library."""
+
+import numpy as np
+
+
+def checked(value, shape, name, error):
+    """
+    Copy a value into a finite, read-only float64 array of the given shape.
+
+    Parameters
+    ----------
+    value : array_like
+    shape : tuple of int or None
+        Expected shape; None stands for any length of that axis.
+    name : str
+        What the value is called in the error message.
+    error : type
+        Exception class, a ValueError.
+
+    Raises
+    ------
+    error
+        When the value is not numeric, has another shape, or is not finite.
+
+    """
+    try:
+        array = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError) as exc:
+        raise error(f'{name} must be an array of {_words(shape)} numbers, got {value!r}') from exc
+    fits = array.ndim == len(shape) and all(
+        want is None or want == have for want, have in zip(shape, array.shape))
+    if not fits:
+        raise error(f'{name} must have shape {_words(shape)}, got {array.shape}: {value!r}')
+    if not np.isfinite(array).all():
+        raise error(f'{name} must be finite, got {array.tolist()}')
+    array.flags.writeable = False
+    return array
+
+
+def checked_number(value, name, error, minimum=None, above=None, below=None):
+    """
+    Return a finite float inside the stated range; raise ``error`` when it is not.
+
+    ``minimum`` is inclusive, ``above`` and ``below`` are exclusive.
+
+    """
+    try:
+        number = float(value)
+    except (TypeError, ValueError) as exc:
+        raise error(f'{name} must be a number, got {value!r}') from exc
+    if not np.isfinite(number):
+        raise error(f'{name} must be finite, got {number}')
+    if minimum is not None and number < minimum:
+        raise error(f'{name} must be at least {minimum:g}, got {number:g}')
+    if above is not None and number <= above:
+        raise error(f'{name} must be greater than {above:g}, got {number:g}')
+    if below is not None and number >= below:
+        raise error(f'{name} must be less than {below:g}, got {number:g}')
+    return number
+
+
+def frozen(array):
+    """Mark an array of our own as read-only and return it (no copy)."""
+    array.flags.writeable = False
+    return array
+
+
+def _words(shape):
+    return '(' + ', '.join('n' if n is None else str(n) for n in shape) + ')'

@@ -1,0 +1,168 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The barrier term of eq. (11): friction margin bought with alpha.
+
+    maximise alpha + eps sum_i log det P_i(x_i)   over the real contacts
+
+log det P_i is log(n^2 - |(t1/mu, t2/mu, m_n/gamma)|^2), or log n without friction, up to a
+constant. The proof is the Lagrangian dual of this objective in closed form (docs/derivations.md).
+alpha_upper, the sensitivities and the feasible interval stay those of eps = 0, so that
+alpha_upper - alpha is the price of the margin.
+"""
+
+import dataclasses
+
+import numpy as np
+
+from grasp_quality import friction_cone
+from grasp_quality.arrays import frozen
+from grasp_quality.bounds import gauge
+from grasp_quality.centering import weighted_center
+from grasp_quality.exceptions import SolverError
+from grasp_quality.problem import VirtualContact, assemble
+from grasp_quality.proof import GAP_TOLERANCE, prove
+from grasp_quality.solution import Status
+from grasp_quality.solve import prove_optimal
+
+NEXT_TO_NOTHING = 1e-13    # weight of the cones that eq. (11) gives none
+INTERIOR_TOLERANCE = 1e-8  # share of the caps below which a force is not strictly inside
+CONE_GENERATORS = 16       # of a task cone, where only its polyhedral inside can be asked
+
+
+def with_margin(problem, solution, barrier_weight, time_limit_s=None):
+    """
+    Trade alpha of a solved task for friction margin.
+
+    Parameters
+    ----------
+    problem : ConicProblem
+        Of a task wrench or cone.
+    solution : Solution
+        Its feasible answer at eps = 0.
+    barrier_weight : float
+        eps > 0, in the unit of alpha.
+    time_limit_s : float, optional
+        For deciding whether strictly interior forces exist [s].
+
+    Returns
+    -------
+    Solution; the given one with status OPTIMAL_NO_INTERIOR where no strictly interior force exists
+
+    Raises
+    ------
+    SolverError, SolverTimeoutError
+
+    """
+    grasp, unit = problem.grasp, problem.virtual.unit
+    eps = barrier_weight / unit
+    center = _center(problem, eps)
+    if center is not None:
+        shares, values, multipliers = center
+        forces = frozen(shares * grasp.force_units)
+        proof = prove(problem, forces, values, multipliers[:6])
+        objective = values[0] + eps * _log_det(grasp, shares).sum()
+        upper = objective_upper(problem, multipliers, eps)
+        gap = (upper - objective) / max(values[0], eps, 1e-3 * proof.size)
+        if gap <= GAP_TOLERANCE and dataclasses.replace(proof, upper=proof.objective).holds:
+            return dataclasses.replace(
+                solution, alpha=max(0.0, float(values[0])) * unit, forces=forces,
+                wrench=frozen((values * unit) @ problem.virtual.wrenches),
+                cone_usage=frozen(friction_cone.usage(
+                    forces, grasp.scales, grasp.max_normal_forces)),
+                proof=dataclasses.replace(
+                    proof, objective=float(objective), upper=float(upper),
+                    size=max(eps, proof.size)),
+                barrier_weight=barrier_weight)
+    if not has_interior(problem, time_limit_s):
+        return dataclasses.replace(
+            solution, status=Status.OPTIMAL_NO_INTERIOR, barrier_weight=barrier_weight)
+    raise SolverError(
+        f'no answer could be proved at barrier_weight {barrier_weight:g}: choose another weight, '
+        'or 0', problem, 'centering failed' if center is None else f'gap {gap:.2g}, {proof}')
+
+
+def _log_det(grasp, shares):
+    return friction_cone.log_det(shares, (grasp.scales > 0.0).astype(np.float64))
+
+
+def _center(problem, eps):
+    """Forces as shares (k, 4), values (t,) and multipliers of the weighted centre, or None."""
+    layout, grasp = problem.layout, problem.grasp
+    blocks = layout.blocks  # (blocks, d), -1 where padded
+    padded = blocks < 0
+    E = np.where(padded, 0.0, problem.E[:, blocks])
+    c = np.where(padded, 0.0, problem.c[blocks])
+    # the logarithm of a half line is half of its log det as a cone
+    is_contact = np.isin(blocks[:, 0], layout.contact_variables)
+    weights = np.where(is_contact, eps * np.where(padded[:, 1:].all(axis=1), 0.5, 1.0),
+                       NEXT_TO_NOTHING)
+    found = weighted_center(E, problem.e, c, weights)
+    if found is None:
+        return None
+    u = np.zeros(layout.shape[1])
+    u[blocks[~padded]] = found[0][~padded]
+    shares, values = layout.shares(u), u[layout.virtual]
+    excess = max(1.0, gauge(shares[:, 2], grasp.bound, grasp.groups))
+    return shares / excess, values, found[1]
+
+
+def objective_upper(problem, multipliers, eps):
+    """
+    Bound the objective of eq. (11), in scaled units, by its Lagrangian dual in closed form.
+
+    With s_i = (nu_i - h_n, -h_rest), h = G_i^T lambda, every contact contributes
+    eps (log(4 eps^2 / det s_i) - 2), or eps (log(eps / s_i) - 1) without friction; any lambda with
+    lambda . F >= 1 gives a bound, and so does any nu that keeps every s_i inside its cone.
+
+    Parameters
+    ----------
+    problem : ConicProblem
+    multipliers : (equations,) array
+        lambda, in scaled units, and the multipliers of the bound's equations behind it.
+    eps : float
+        Barrier weight over the unit of alpha.
+
+    """
+    grasp, columns = problem.grasp, problem.virtual.columns
+    along = multipliers[:6] @ columns
+    slack = along[0] - np.sqrt(along[1:] @ along[1:])
+    if not slack > 0.0:
+        return np.inf
+    multipliers = multipliers / min(slack, 1.0)
+    h = (multipliers[:6] @ grasp.scaled_matrix.reshape(6, -1)).reshape(-1, 4)
+    rest = np.sqrt(h[:, 0] ** 2 + h[:, 1] ** 2 + h[:, 3] ** 2)
+    frictional = (grasp.scales[:, (0, 1, 3)] > 0.0).any(axis=1)
+    if grasp.bound == 'l2':
+        nu = multipliers[7:]
+        bound_total = np.sqrt(nu @ nu)
+    else:
+        groups = np.maximum(multipliers[6:], 0.0)
+        nu, bound_total = groups[list(grasp.groups)], groups.sum()
+    s = nu - h[:, 2]
+    if not (s > rest).all():
+        return np.inf
+    each = np.where(frictional, np.log(4.0 * eps ** 2 / ((s - rest) * (s + rest))) - 2.0,
+                    np.log(eps / s) - 1.0)
+    return bound_total + multipliers[:6] @ problem.scaled_external_wrench + eps * each.sum()
+
+
+def has_interior(problem, time_limit_s=None):
+    """
+    Tell whether some force strictly inside all cones serves the task, alpha >= 0 left open.
+
+    A task cone is asked through ``CONE_GENERATORS`` wrenches of its surface, so that a force which
+    exists only between them and the surface is missed.
+
+    """
+    grasp, columns = problem.grasp, problem.virtual.columns
+    if problem.virtual.is_cone:
+        angles = np.linspace(0.0, 2.0 * np.pi, CONE_GENERATORS, endpoint=False)
+        columns = columns @ np.stack([np.ones_like(angles), np.cos(angles), np.sin(angles)])
+    normals = grasp.scaled_matrix[:, :, 2].sum(axis=1, keepdims=True)
+    objective = np.zeros(1 + columns.shape[1])
+    objective[0] = 1.0
+    pressing = VirtualContact(
+        np.concatenate([-normals, columns], axis=1), False, objective, role='pressing')
+    optimum = prove_optimal(assemble(grasp, pressing, problem.external_wrench), time_limit_s)
+    return optimum is not None and optimum.values[0] > INTERIOR_TOLERANCE

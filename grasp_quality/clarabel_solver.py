@@ -1,0 +1,109 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Clarabel, called directly on a conic program.
+
+Clarabel takes min q.x, A x + s = b, s in K. Our standard form is its dual: with A = -E^T, b = -c
+and q = e, its multipliers are our variables u, kept inside the cones by the interior-point method,
+and its x are our multipliers. The matrix then has one column an equation, which is smaller to
+factor than one column a force (docs/decisions.md). Whatever Clarabel throws, its panics included,
+leaves here as a SolverError with the problem attached.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import clarabel
+import numpy as np
+from scipy.sparse import csc_matrix
+
+from grasp_quality.exceptions import SolverError, SolverTimeoutError
+
+# tolerances of gap and feasibility, tried in order: the first is met by nearly every problem
+TOLERANCES = ((1e-9, 1e-10), (1e-8, 1e-8), (1e-11, 1e-11))
+CONES = {'nonnegative': clarabel.NonnegativeConeT, 'second_order': clarabel.SecondOrderConeT}
+
+
+@dataclass(frozen=True, eq=False)
+class RawAnswer:
+    """
+    What Clarabel said.
+
+    ``outcome`` is 'solved', 'infeasible' or 'failed'; ``u`` (variables,) and ``multipliers``
+    (equations,) are its last iterate, or its certificate; ``status`` is its own word.
+
+    """
+
+    outcome: str
+    u: np.ndarray
+    multipliers: np.ndarray
+    status: str
+
+
+def run(problem, attempt=0, time_limit_s=None):
+    """
+    Solve a ConicProblem once.
+
+    Parameters
+    ----------
+    problem : ConicProblem
+    attempt : int
+        Which of ``TOLERANCES`` to ask for.
+    time_limit_s : float, optional
+        [s]
+
+    Returns
+    -------
+    RawAnswer
+
+    Raises
+    ------
+    SolverError, SolverTimeoutError
+
+    """
+    rows, variables = problem.layout.shape
+    matrix = csc_matrix(
+        (-problem.equation_values, problem.layout.row_columns, problem.layout.row_starts),
+        shape=(variables, rows))
+    return run_matrices(
+        _zeros(rows), problem.e, matrix, -problem.c, _cones(problem.cones),
+        _settings(attempt, time_limit_s), problem)
+
+
+def run_matrices(P, q, A, b, cones, settings, problem):
+    """Hand matrices to Clarabel; ``problem`` is what a SolverError carries."""
+    try:
+        solution = clarabel.DefaultSolver(P, q, A, b, cones, settings).solve()
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as exc:  # Clarabel's panics derive from BaseException
+        raise SolverError(f'Clarabel failed: {exc}', problem, type(exc).__name__) from exc
+    status = str(solution.status)
+    if status == 'MaxTime':
+        raise SolverTimeoutError(
+            'the solver reached its time limit; raise it or ask for less', problem, status)
+    outcome = {'Solved': 'solved', 'DualInfeasible': 'infeasible'}.get(status, 'failed')
+    return RawAnswer(outcome, np.array(solution.z), np.array(solution.x), status)
+
+
+@lru_cache(maxsize=256)
+def _zeros(size):
+    return csc_matrix((size, size))
+
+
+@lru_cache(maxsize=256)
+def _cones(cones):
+    return [CONES[kind](size) for kind, size in cones]
+
+
+@lru_cache(maxsize=64)
+def _settings(attempt, time_limit_s):
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.max_threads = 1
+    gap, feasibility = TOLERANCES[attempt]
+    settings.tol_gap_abs = settings.tol_gap_rel = gap
+    settings.tol_feas = feasibility
+    if time_limit_s is not None:
+        settings.time_limit = time_limit_s
+    return settings

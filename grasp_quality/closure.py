@@ -1,0 +1,65 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Force closure: can the contacts resist every wrench, however small the disturbance?
+
+A grasp has force closure when its matrix has rank 6 and there is an internal force strictly
+inside all friction cones. The margin of the second is itself a conic program: a common share of
+the caps, pressed by every contact on top of forces inside the cones, as the virtual contact.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from grasp_quality.problem import VirtualContact, assemble
+from grasp_quality.solve import prove_optimal
+
+MARGIN_TOLERANCE = 1e-8  # share of the caps below which an internal force is not strict
+
+
+@dataclass(frozen=True)
+class ForceClosure:
+    """
+    Force closure: rank 6 and a strictly interior internal force.
+
+    Attributes
+    ----------
+    closed : bool
+    rank : int
+        Of the grasp matrix.
+    margin : float
+        Largest share of the caps, in [0, 1], by which every contact can stay inside its friction
+        cone while the forces balance each other: |(t/mu, m_n/gamma)| <= n - margin f_max.
+
+    """
+
+    closed: bool
+    rank: int
+    margin: float
+
+
+def force_closure(grasp, time_limit_s=None):
+    """
+    Decide force closure, with its margin.
+
+    Parameters
+    ----------
+    grasp : Grasp
+    time_limit_s : float, optional
+        [s]
+
+    Returns
+    -------
+    ForceClosure
+
+    Raises
+    ------
+    SolverError, SolverTimeoutError
+
+    """
+    normals = grasp.scaled_matrix[:, :, 2].sum(axis=1, keepdims=True)  # (6, 1)
+    pressing = VirtualContact(-normals, False, np.array([1.0]), role='pressing')
+    optimum = prove_optimal(assemble(grasp, pressing), time_limit_s)
+    margin = max(0.0, min(float(optimum.values[0]), optimum.proof.upper))
+    return ForceClosure(grasp.rank == 6 and margin > MARGIN_TOLERANCE, grasp.rank, margin)

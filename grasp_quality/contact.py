@@ -1,0 +1,136 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+One contact: where a finger touches the object, and what it can transmit there.
+
+The contact frame has its origin at the contact point and its +z axis along the inward normal. The
+three models nest: FPC transmits n >= 0; PCWF adds |t| <= mu n; SFCE couples the tangential force
+with a moment about the normal, |t|^2 / mu^2 + m_n^2 / gamma^2 <= n^2 (the paper, section II).
+"""
+
+import enum
+from dataclasses import dataclass
+
+import numpy as np
+
+from grasp_quality.arrays import checked, checked_number, frozen
+from grasp_quality.exceptions import InvalidContactError
+
+ROTATION_TOLERANCE = 1e-6  # largest |R^T R - I| entry that still counts as a rotation
+
+
+class ContactModel(enum.Enum):
+    """What a contact transmits; the names are those of the grasping literature."""
+
+    FPC = 'FPC'    # frictionless point contact
+    PCWF = 'PCWF'  # point contact with (Coulomb) friction
+    SFCE = 'SFCE'  # soft finger contact, elliptic approximation
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """
+    A contact in the object frame.
+
+    Parameters
+    ----------
+    position : (3,) array_like [m]
+        Contact point in the object frame.
+    normal : (3,) array_like, optional
+        Inward normal (into the object) in the object frame, of any length but zero. The tangents
+        t1, t2 are then chosen by a fixed rule; give ``rotation`` instead to choose them yourself.
+    model : ContactModel
+    friction : float [-]
+        Coulomb coefficient mu >= 0; not used by FPC.
+    torsional_friction : float [m]
+        gamma >= 0, the largest moment about the normal per newton of normal force; SFCE only.
+    max_normal_force : float [N]
+        f_max > 0.
+    name, finger : str
+        What the contact is called and which finger it belongs to (for the finger bound).
+    rotation : (3, 3) array_like, optional
+        R_object_contact with columns t1, t2, inward normal; instead of ``normal``.
+
+    Raises
+    ------
+    InvalidContactError
+
+    """
+
+    position: np.ndarray
+    normal: np.ndarray = None
+    model: ContactModel = ContactModel.PCWF
+    friction: float = 0.5
+    torsional_friction: float = 0.0
+    max_normal_force: float = 1.0
+    name: str = ''
+    finger: str = ''
+    rotation: np.ndarray = None
+
+    def __post_init__(self):
+        """Validate, copy and complete the fields."""
+        label = f'contact {self.name!r}: ' if self.name else 'contact: '
+
+        def put(field, value):
+            object.__setattr__(self, field, value)
+
+        put('position', checked(self.position, (3,), label + 'position', InvalidContactError))
+        put('rotation', self._frame(label))
+        put('normal', self.rotation[:, 2])
+        if not isinstance(self.model, ContactModel):
+            raise InvalidContactError(
+                f'{label}model must be one of {[str(m) for m in ContactModel]}, got {self.model!r}')
+        for field in ('friction', 'torsional_friction'):
+            put(field, checked_number(
+                getattr(self, field), label + field, InvalidContactError, minimum=0.0))
+        put('max_normal_force', checked_number(
+            self.max_normal_force, label + 'max_normal_force', InvalidContactError, above=0.0))
+
+    def _frame(self, label):
+        if (self.normal is None) == (self.rotation is None):
+            raise InvalidContactError(
+                f'{label}give exactly one of normal and rotation, got '
+                + ('neither' if self.normal is None else 'both'))
+        if self.rotation is None:
+            normal = checked(self.normal, (3,), label + 'normal', InvalidContactError)
+            return frozen(frame_from_normal(normal, label))
+        rotation = checked(self.rotation, (3, 3), label + 'rotation', InvalidContactError)
+        skew = np.abs(rotation.T @ rotation - np.eye(3)).max()
+        if skew > ROTATION_TOLERANCE or np.linalg.det(rotation) < 0.0:
+            raise InvalidContactError(
+                f'{label}rotation must be a right-handed orthonormal matrix (columns t1, t2, '
+                f'inward normal), got {rotation.tolist()}')
+        return rotation
+
+    @property
+    def effective_friction(self):
+        """Coulomb coefficient that the model lets act: 0 for FPC."""
+        return 0.0 if self.model is ContactModel.FPC else self.friction
+
+    @property
+    def effective_torsional_friction(self):
+        """Torsional coefficient [m] that the model lets act: 0 but for SFCE."""
+        return self.torsional_friction if self.model is ContactModel.SFCE else 0.0
+
+
+def frame_from_normal(normal, label=''):
+    """
+    Build R_object_contact (3, 3) from an inward normal of any length but zero.
+
+    t1 is the coordinate axis least aligned with the normal, made orthogonal to it, so that the
+    frame depends on nothing but the normal.
+
+    """
+    largest = np.abs(normal).max()
+    if largest == 0.0:
+        raise InvalidContactError(f'{label}normal must not be zero, got {normal.tolist()}')
+    n = normal / largest
+    n = n / np.sqrt(n @ n)
+    axis = np.zeros(3)
+    axis[np.argmin(np.abs(n))] = 1.0
+    t1 = axis - (axis @ n) * n
+    t1 /= np.sqrt(t1 @ t1)
+    t2 = np.array([n[1] * t1[2] - n[2] * t1[1],
+                   n[2] * t1[0] - n[0] * t1[2],
+                   n[0] * t1[1] - n[1] * t1[0]])
+    return np.stack([t1, t2, n], axis=1)

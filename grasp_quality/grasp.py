@@ -1,0 +1,185 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+A grasp: contacts, stacked into the arrays that all computations share, and a force bound.
+
+G, the grasp matrix (eq. 4), maps the local forces [t1, t2, n, m_n] of all contacts to the wrench
+on the object about the object frame's origin. Everything derived is computed once and cached.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from grasp_quality import bounds
+from grasp_quality.arrays import frozen
+from grasp_quality.contact import Contact
+from grasp_quality.exceptions import InvalidGraspError
+from grasp_quality.friction_cone import coordinate_scales
+from grasp_quality.wrench import cross, shift
+
+RANK_TOLERANCE = 1e-9  # singular values below this share of the largest count as zero
+
+
+@dataclass(frozen=True, eq=False)
+class Grasp:
+    """
+    Contacts that act on one object, with the bound on their normal forces.
+
+    Parameters
+    ----------
+    contacts : iterable of Contact
+        At least one; names must be unique where given.
+    bound : str
+        'linf' (every contact obeys its own cap), 'l1' (the sum of n_i / f_max,i is at most 1),
+        'l2' (their Euclidean norm is), 'finger' (their sum over each finger is).
+
+    Raises
+    ------
+    InvalidGraspError
+
+    """
+
+    contacts: tuple
+    bound: str = 'linf'
+
+    def __post_init__(self):
+        """Validate and freeze."""
+        try:
+            contacts = tuple(self.contacts)
+        except TypeError as exc:
+            raise InvalidGraspError(
+                f'contacts must be a sequence of Contact, got {self.contacts!r}') from exc
+        strangers = [c for c in contacts if not isinstance(c, Contact)]
+        if strangers:
+            raise InvalidGraspError(f'contacts must be Contact objects, got {strangers[0]!r}')
+        if not contacts:
+            raise InvalidGraspError('a grasp needs at least one contact, got none')
+        named = [c.name for c in contacts if c.name]
+        twice = sorted({name for name in named if named.count(name) > 1})
+        if twice:
+            raise InvalidGraspError(f'contact names must be unique, given twice: {twice}')
+        object.__setattr__(self, 'contacts', contacts)
+        object.__setattr__(
+            self, 'groups', bounds.groups_of(self.bound, [c.finger for c in contacts]))
+
+    def __len__(self):
+        """Count the contacts."""
+        return len(self.contacts)
+
+    @cached_property
+    def names(self):
+        """Name of every contact; 'contact_<index>' where none was given."""
+        return tuple(c.name or f'contact_{i}' for i, c in enumerate(self.contacts))
+
+    @cached_property
+    def positions(self):
+        """Contact points (k, 3) [m] in the object frame."""
+        return frozen(np.array([c.position for c in self.contacts]))
+
+    @cached_property
+    def rotations(self):
+        """R_object_contact of every contact (k, 3, 3); columns t1, t2, inward normal."""
+        return frozen(np.array([c.rotation for c in self.contacts]))
+
+    @cached_property
+    def max_normal_forces(self):
+        """Caps f_max (k,) [N]."""
+        return frozen(np.array([c.max_normal_force for c in self.contacts]))
+
+    @cached_property
+    def scales(self):
+        """Cone scales [mu, mu, 1, gamma] (k, 4) that the contact models let act."""
+        return frozen(coordinate_scales(
+            np.array([c.effective_friction for c in self.contacts]),
+            np.array([c.effective_torsional_friction for c in self.contacts])))
+
+    @cached_property
+    def matrix(self):
+        """Grasp matrix G (6, k, 4), eq. (4): local forces to object wrench about the origin."""
+        return frozen(self._matrix_about(self.positions))
+
+    @cached_property
+    def center(self):
+        """Mean of the contact points (3,) [m]: the reference point of the scaled problem."""
+        return frozen(self.positions.mean(axis=0))
+
+    @cached_property
+    def lever_arm(self):
+        """
+        Length scale of the grasp [m]: largest distance of a contact from their mean.
+
+        Where all contacts coincide, the largest torsional coefficient; 1 m when that is zero too.
+
+        """
+        offsets = self.positions - self.center
+        reach = float(np.sqrt((offsets * offsets).sum(axis=1).max()))
+        spread = 1e-12 * float(np.abs(self.positions).max())
+        return reach if reach > spread else float(self.scales[:, 3].max()) or 1.0
+
+    @cached_property
+    def scaled_matrix(self):
+        """
+        Dimensionless grasp matrix (6, k, 4).
+
+        Columns act on [t1/mu, t2/mu, n, m_n/gamma] as shares of f_max; rows are forces as shares
+        of the largest cap and torques about ``center`` as shares of that times ``lever_arm``.
+
+        """
+        G = self._matrix_about(self.positions - self.center)
+        G[3:] /= self.lever_arm
+        G *= self.force_units / self.force_scale
+        return frozen(G)
+
+    @cached_property
+    def force_units(self):
+        """Local forces (k, 4) [N, N, N, N m] that a share of one stands for."""
+        return frozen(self.scales * self.max_normal_forces[:, None])
+
+    def shares(self, forces):
+        """Local forces (k, 4) as shares [t1/mu, t2/mu, n, m_n/gamma] / f_max."""
+        units = self.force_units
+        return np.divide(forces, units, where=units > 0.0, out=np.zeros((len(self), 4)))
+
+    @cached_property
+    def force_scale(self):
+        """Force scale of the grasp [N]: the largest cap."""
+        return float(self.max_normal_forces.max())
+
+    @cached_property
+    def _range(self):
+        """Orthonormal basis (6, rank) of the wrenches that unbounded forces could span."""
+        G = self.scaled_matrix.reshape(6, -1)
+        norms = np.sqrt((G * G).sum(axis=0))
+        U, s, _ = np.linalg.svd(G[:, norms > 0] / norms[norms > 0], full_matrices=False)
+        return U[:, s > RANK_TOLERANCE * s[0]]
+
+    @property
+    def rank(self):
+        """Rank of the grasp matrix, 1 to 6."""
+        return self._range.shape[1]
+
+    def spans(self, wrench):
+        """Tell whether forces of any sign and size could produce this wrench (6,)."""
+        w = self.scaled_wrench(wrench)
+        rest = w - self._range @ (self._range.T @ w)
+        return bool(np.sqrt(rest @ rest) <= RANK_TOLERANCE * np.sqrt(w @ w))
+
+    def scaled_wrench(self, wrench):
+        """Wrenches (..., 6) about ``center``, as shares of force scale and lever arm."""
+        scaled = shift(wrench, self.center) / self.force_scale
+        scaled[..., 3:] /= self.lever_arm
+        return scaled
+
+    def wrench(self, forces):
+        """Object wrench (6,) [N, N m] about the origin of local forces (k, 4): G x."""
+        return np.einsum('ijk,jk->i', self.matrix, forces)
+
+    def _matrix_about(self, positions):
+        R = self.rotations
+        G = np.zeros((6, len(self.contacts), 4))
+        G[:3, :, :3] = R.transpose(1, 0, 2)
+        G[3:, :, :3] = cross(positions[:, None, :], R.transpose(0, 2, 1)).transpose(2, 0, 1)
+        G[3:, :, 3] = R[:, :, 2].T
+        return G

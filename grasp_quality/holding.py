@@ -1,0 +1,117 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The dual problem: the smallest contact forces that balance a given external wrench.
+
+The force bound becomes the objective: the virtual contact widens it instead of carrying a task
+(the paper, section III and its reference [7]). When even unbounded forces inside the friction
+cones cannot balance the wrench, or only forces beyond the caps can, the answer is INFEASIBLE and
+carries the smallest violation.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from grasp_quality import friction_cone
+from grasp_quality.grasp import Grasp
+from grasp_quality.problem import VirtualContact, assemble
+from grasp_quality.proof import USAGE_TOLERANCE
+from grasp_quality.solution import NO_FORCES, NO_USAGE, Status
+from grasp_quality.solve import prove_optimal
+from grasp_quality.wrench import as_wrench
+
+
+@dataclass(frozen=True, eq=False)
+class MinimumForces:
+    """
+    Smallest contact forces that balance an external wrench: the dual problem (section III).
+
+    Attributes
+    ----------
+    status : Status
+        INFEASIBLE when no forces inside cones and caps balance it.
+    forces : (k, 4) array [N, N, N, N m]
+        Of the contacts on the object; (0, 4) when infeasible.
+    peak : float
+        Smallest use of the force bound: max n_i / f_max,i for linf. More than 1 says how much
+        larger the caps would have to be; inf when no forces inside the cones, up to a million
+        times the caps, balance the wrench.
+    peak_lower : float
+        Dual bound: no forces need less.
+    violation : float
+        Smallest |G x + F_ext| [N] that remains with forces inside cones and caps, torques
+        counted over the grasp's lever arm; 0 when feasible.
+    cone_usage : (k,) array
+
+    """
+
+    grasp: Grasp
+    status: Status
+    forces: np.ndarray
+    peak: float
+    peak_lower: float
+    violation: float
+    cone_usage: np.ndarray
+
+    @property
+    def friction_margin(self):
+        """1 minus the largest cone usage; 0 when infeasible."""
+        return 1.0 - float(self.cone_usage.max()) if len(self.cone_usage) else 0.0
+
+
+def minimum_forces(grasp, external_wrench, time_limit_s=None):
+    """
+    Find the smallest contact forces with G x + F_ext = 0.
+
+    Smallest in the sense of the grasp's own bound; alpha of the task -F_ext times ``peak`` is 1.
+
+    Parameters
+    ----------
+    grasp : Grasp
+    external_wrench : (6,) array_like [N, N m]
+        Load on the object, about the object frame's origin.
+    time_limit_s : float, optional
+        [s]
+
+    Returns
+    -------
+    MinimumForces
+
+    Raises
+    ------
+    InvalidTaskError, SolverError, SolverTimeoutError
+
+    """
+    load = as_wrench(external_wrench, 'external wrench')
+    if not load.any():
+        return MinimumForces(grasp, Status.OPTIMAL, np.zeros((len(grasp), 4)), 0.0, 0.0, 0.0,
+                             np.zeros(len(grasp)))
+    scaled = grasp.scaled_wrench(load)
+    size = float(np.sqrt(scaled @ scaled))
+    widening = VirtualContact(np.zeros((6, 1)), False, np.array([-1.0]), role='widening')
+    optimum = prove_optimal(assemble(grasp, widening, load / size), time_limit_s)
+    if optimum is None:
+        peak = lower = np.inf
+    else:
+        peak, lower = float(optimum.values[0]) * size, -optimum.proof.upper * size
+    if peak > 1.0 + USAGE_TOLERANCE:
+        return MinimumForces(grasp, Status.INFEASIBLE, NO_FORCES, peak, lower,
+                             violation(grasp, load, time_limit_s), NO_USAGE)
+    forces = optimum.forces * size
+    return MinimumForces(
+        grasp, Status.OPTIMAL, forces, peak, lower, 0.0,
+        friction_cone.usage(forces, grasp.scales, grasp.max_normal_forces * peak))
+
+
+def violation(grasp, external_wrench, time_limit_s=None):
+    """
+    Smallest |G x + F_ext| [N] that forces inside cones and caps leave.
+
+    Torques are taken about the contacts' centre and counted over the grasp's lever arm.
+
+    """
+    columns = np.concatenate([np.zeros((6, 1)), np.eye(6)], axis=1)
+    remainder = VirtualContact(columns, True, np.concatenate([[-1.0], np.zeros(6)]))
+    optimum = prove_optimal(assemble(grasp, remainder, external_wrench), time_limit_s)
+    return float(optimum.values[0]) * grasp.force_scale

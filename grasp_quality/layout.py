@@ -1,0 +1,170 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Where each variable and each equation of the conic program stands.
+
+A layout depends on the contacts' models, the groups of the force bound and the kind of virtual
+contact, not on any number, and is made once for each such pattern. Variables, in order: slacks of
+the groups, a single virtual variable, frictionless normals (all non-negative), one second-order
+cone a contact, the cone of the virtual contact, and for the l2 bound the cone of all normals.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from grasp_quality.bounds import group_maxima
+
+CONE_ORDER = (2, 0, 1, 3)  # axis first: n, t1, t2, m_n
+ROLES = ('task', 'pressing', 'widening')
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """
+    Index arrays of one pattern; made by ``layout_of``.
+
+    Attributes
+    ----------
+    groups : tuple of int
+        Group of the bound that each contact belongs to; empty for l2.
+    cones : tuple of (str, int)
+        'nonnegative' or 'second_order', and dimension, in the order of u.
+    virtual : (t,) int array
+        Variables of the virtual contact.
+    contact_variables, contact_source : (m,) int arrays
+        Variables of the contacts, and the place of each in the flattened (k, 4) coordinates.
+    source : (entries,) int array
+        For each entry of an equilibrium row, its column in [scaled G, virtual columns].
+    row_columns, row_starts : int arrays
+        Sparsity of E, row by row: variables of the stored entries, and where each row begins.
+    bound_entries, bound_right : arrays
+        Stored entries and right sides of the bound's equations, which are constants.
+    shape : (int, int)
+        Equations and variables.
+    contact_count: int
+
+    """
+
+    groups: tuple
+    cones: tuple
+    virtual: np.ndarray
+    contact_variables: np.ndarray
+    contact_source: np.ndarray
+    source: np.ndarray
+    row_columns: np.ndarray
+    row_starts: np.ndarray
+    bound_entries: np.ndarray
+    bound_right: np.ndarray
+    shape: tuple
+    contact_count: int
+
+    @cached_property
+    def blocks(self):
+        """Variables of every cone (blocks, d), one a row, axis first, padded with -1."""
+        rows, start = [], 0
+        for kind, size in self.cones:
+            members = list(range(start, start + size))
+            rows += [members] if kind == 'second_order' else [[v] for v in members]
+            start += size
+        width = max(len(row) for row in rows)
+        return np.array([row + [-1] * (width - len(row)) for row in rows])
+
+    def shares(self, u):
+        """Contact part of u as shares [t1/mu, t2/mu, n, m_n/gamma] / f_max, (k, 4)."""
+        shares = np.zeros((self.contact_count, 4))
+        shares.ravel()[self.contact_source] = u[self.contact_variables]
+        return shares
+
+    def cap_total(self, grasp):
+        """Sum over the groups of their largest cap, as a share of the largest of all."""
+        shares = grasp.max_normal_forces / grasp.force_scale
+        if not self.groups:
+            return float(np.sqrt(shares @ shares))
+        return float(group_maxima(shares, self.groups).sum())
+
+
+@lru_cache(maxsize=256)
+def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role):
+    """
+    Lay a pattern out.
+
+    Parameters
+    ----------
+    active : bytes
+        (k, 4) bools: which local coordinates [t1, t2, n, m_n] each contact can transmit.
+    groups : tuple of int
+        Group of each contact.
+    is_l2 : bool
+    virtual_size : int
+        Number of variables of the virtual contact.
+    virtual_is_cone : bool
+    role : str
+        'task': the virtual contact takes part in equilibrium only. 'pressing': its first variable
+        is also a normal force common to all contacts, as a share of their caps. 'widening': it
+        takes no part in equilibrium; the bound is its value instead of one.
+
+    """
+    coordinates = [[j for j in CONE_ORDER if row[j]]
+                   for row in np.frombuffer(active, dtype=bool).reshape(-1, 4)]
+    next_variable = 0
+
+    def take(count):
+        nonlocal next_variable
+        next_variable += count
+        return range(next_variable - count, next_variable)
+
+    slacks = take(0 if is_l2 else max(groups) + 1)
+    virtual = None if virtual_is_cone else take(virtual_size)
+    variables = {i: take(1) for i, c in enumerate(coordinates) if len(c) == 1}
+    cones = [('nonnegative', next_variable)]
+    for i, c in enumerate(coordinates):
+        if len(c) > 1:
+            variables[i] = take(len(c))
+            cones.append(('second_order', len(c)))
+    if virtual_is_cone:
+        virtual = take(virtual_size)
+        cones.append(('second_order', virtual_size))
+    if is_l2:
+        norm_cone = take(1 + len(coordinates))
+        cones.append(('second_order', len(norm_cone)))
+
+    # (variable, column in [G, virtual]) of an equilibrium row
+    entries = [(v, 4 * i + j) for i, c in enumerate(coordinates) for v, j in zip(variables[i], c)]
+    contact_entries = sorted(entries)
+    if role != 'widening':
+        entries += [(v, 4 * len(coordinates) + t) for t, v in enumerate(virtual)]
+    entries.sort()
+
+    # rows of the bound: ({variable: coefficient}, right side)
+    right = 0.0 if role == 'widening' else 1.0
+    widen = {virtual[0]: -1.0} if role == 'widening' else {}
+    rows = []
+    if is_l2:
+        rows.append(({norm_cone[0]: 1.0, **widen}, right))
+        for i in range(len(coordinates)):
+            press = {virtual[0]: 1.0} if role == 'pressing' else {}
+            rows.append(({variables[i][0]: 1.0, norm_cone[1 + i]: -1.0, **press}, 0.0))
+    for g, slack in enumerate(slacks):
+        members = [i for i, group in enumerate(groups) if group == g]
+        press = {virtual[0]: float(len(members))} if role == 'pressing' else {}
+        rows.append((
+            {slack: 1.0, **{variables[i][0]: 1.0 for i in members}, **press, **widen}, right))
+    rows = [(sorted(row.items()), right) for row, right in rows]
+
+    lengths = [len(entries)] * 6 + [len(row) for row, _ in rows]
+    equilibrium_columns = [v for v, _ in entries] * 6
+    return Layout(
+        groups=() if is_l2 else groups,
+        cones=tuple(cone for cone in cones if cone[1]),
+        virtual=np.array(virtual),
+        contact_variables=np.array([v for v, _ in contact_entries]),
+        contact_source=np.array([source for _, source in contact_entries]),
+        source=np.array([source for _, source in entries]),
+        row_columns=np.array(equilibrium_columns + [v for row, _ in rows for v, _ in row]),
+        row_starts=np.concatenate([[0], np.cumsum(lengths)]),
+        bound_entries=np.array([value for row, _ in rows for _, value in row]),
+        bound_right=np.array([right for _, right in rows]),
+        shape=(len(lengths), next_variable),
+        contact_count=len(coordinates))

@@ -1,0 +1,138 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The measures that users call: tasks in, answers out.
+
+Each is a few solves of conic programs put together; the mathematics of one solve is in
+``problem``, ``solve`` and ``proof``, the barrier term in ``barrier``.
+"""
+
+import dataclasses
+
+import numpy as np
+
+from grasp_quality import friction_cone
+from grasp_quality.arrays import checked, checked_number, frozen
+from grasp_quality.barrier import with_margin
+from grasp_quality.exceptions import InvalidTaskError
+from grasp_quality.polytope import evaluate_ellipsoid, evaluate_polytope
+from grasp_quality.problem import build_problem
+from grasp_quality.solution import WrenchMap
+from grasp_quality.solve import solve
+from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
+
+
+def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s=None):
+    """
+    Tell how much of a task the grasp can apply, and with which forces.
+
+    Parameters
+    ----------
+    grasp : Grasp
+    task : TaskWrench, TaskCone, TaskPolytope or TaskEllipsoid
+        About the object frame's origin [N, N m]; taken as given, never normalised.
+    external_wrench : (6,) array_like [N, N m], optional
+        What the world applies on the object besides the fingers.
+    barrier_weight : float
+        eps >= 0 of eq. (11), in the unit of alpha: buys friction margin with alpha.
+    time_limit_s : float, optional
+        For each solve [s].
+
+    Returns
+    -------
+    Solution, ConeSolution or PolytopeSolution
+
+    Raises
+    ------
+    InvalidTaskError, SolverError, SolverTimeoutError
+
+    """
+    eps = checked_number(barrier_weight, 'barrier_weight', InvalidTaskError, minimum=0.0)
+
+    def one(single):
+        problem = build_problem(grasp, single, external_wrench)
+        solution = solve(problem, time_limit_s)
+        if eps > 0.0 and solution.feasible:
+            solution = with_margin(problem, solution, eps, time_limit_s)
+        return solution
+
+    if isinstance(task, TaskWrench):
+        return one(task)
+    if isinstance(task, TaskCone):
+        return _with_axis_and_surface(one(task), grasp, task, external_wrench, time_limit_s)
+    if isinstance(task, TaskPolytope):
+        return evaluate_polytope(grasp, task, one, external_wrench, time_limit_s)
+    if isinstance(task, TaskEllipsoid):
+        return evaluate_ellipsoid(grasp, task, one)
+    raise InvalidTaskError(
+        'task must be a TaskWrench, TaskCone, TaskPolytope or TaskEllipsoid, '
+        f'got {type(task).__name__}')
+
+
+def _with_axis_and_surface(solution, grasp, task, external_wrench, time_limit_s):
+    axis, *surface = wrench_map(
+        grasp, np.vstack([task.axis[None], task.surface]), external_wrench,
+        time_limit_s=time_limit_s).alpha
+    return dataclasses.replace(
+        solution, alpha_axis=float(axis), alpha_worst=float(min(surface)) if surface else None)
+
+
+def wrench_map(grasp, directions, external_wrench=None, forces=False, time_limit_s=None):
+    """
+    Alpha for many task wrenches (Fig. 3b).
+
+    Parameters
+    ----------
+    grasp : Grasp
+    directions : (N, 6) array_like [N, N m]
+        Task wrenches about the object frame's origin, taken as given; none may be zero.
+    external_wrench : (6,) array_like [N, N m], optional
+    forces : bool
+        Whether to return the contact forces too.
+    time_limit_s : float, optional
+        For each solve [s].
+
+    Returns
+    -------
+    WrenchMap
+
+    Raises
+    ------
+    InvalidTaskError, SolverError, SolverTimeoutError
+
+    """
+    directions = checked(directions, (None, 6), 'directions', InvalidTaskError)
+    alpha = np.zeros(len(directions))
+    feasible = np.zeros(len(directions), dtype=bool)
+    all_forces = np.zeros((len(directions), len(grasp), 4)) if forces else None
+    for i, direction in enumerate(directions):
+        solution = solve(build_problem(grasp, TaskWrench(direction), external_wrench), time_limit_s)
+        alpha[i], feasible[i] = solution.alpha, solution.feasible
+        if forces and solution.feasible:
+            all_forces[i] = solution.forces
+    return WrenchMap(directions, frozen(alpha), frozen(feasible),
+                     frozen(all_forces) if forces else None)
+
+
+def slip_margin(grasp, forces):
+    """
+    Slip margin of measured contact forces, 1 - cone usage.
+
+    Parameters
+    ----------
+    grasp : Grasp
+    forces : (k, 4) array_like [N, N, N, N m]
+        Measured [t1, t2, n, m_n] of every contact, in its contact frame, finger on object.
+
+    Returns
+    -------
+    (k,) array: 1 on the cone's axis and for an unloaded contact, 0 at slip, negative outside the
+    cone, -inf for a load that the contact model cannot carry at all.
+
+    Raises
+    ------
+    InvalidTaskError
+
+    """
+    measured = checked(forces, (len(grasp), 4), 'measured forces', InvalidTaskError)
+    return 1.0 - friction_cone.usage(measured, grasp.scales, grasp.max_normal_forces)

@@ -1,0 +1,178 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Build: a grasp and a task as one conic program in standard form.
+
+    maximise c . u   subject to   E u = e,   u in K
+
+u holds, for every contact, its force as shares [t1/mu, t2/mu, n, m_n/gamma] / f_max in a standard
+second-order cone (or a half line when it is frictionless), the slack of every group of the force
+bound, and the task. The task is a virtual contact (the paper, section IV): its columns stand with
+a minus sign beside the grasp matrix. The first six equations are the equilibrium G x + F_ext =
+alpha F, about the contacts' centre, in shares of lever arm and largest cap; the rest is the bound.
+
+Which variable stands where depends on the contact models and the bound only, so ``layout`` caches
+it; building is then one gather of numbers. Nothing here knows of a solver.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from grasp_quality.exceptions import InvalidTaskError
+from grasp_quality.grasp import Grasp
+from grasp_quality.layout import Layout, layout_of
+from grasp_quality.task import TaskCone, TaskWrench
+from grasp_quality.wrench import as_wrench
+
+NO_WRENCH = as_wrench(np.zeros(6))
+
+
+@dataclass(frozen=True, eq=False)
+class VirtualContact:
+    """
+    A task, or another unknown of the program, as columns beside the grasp matrix.
+
+    Parameters
+    ----------
+    columns : (6, t) array
+        Scaled wrench of each variable, as it stands in equilibrium: G x + F_ext = columns v.
+    is_cone : bool
+        True: v lies in a second-order cone, first component the axis; False: v >= 0.
+    objective : (t,) array
+        Worth of each variable, to be maximised.
+    unit : float
+        Physical size of v = 1 (so alpha = unit v for a task wrench).
+    role : str
+        'task'; 'pressing': v is also a normal force common to all contacts, as a share of their
+        caps; 'widening': v takes no part in equilibrium and is what the bound allows.
+    wrenches : (t, 6) array [N, N m], optional
+        Task wrench that one physical unit of each variable applies, about the origin.
+
+    """
+
+    columns: np.ndarray
+    is_cone: bool
+    objective: np.ndarray
+    unit: float = 1.0
+    role: str = 'task'
+    wrenches: np.ndarray = None
+
+
+@dataclass(frozen=True, eq=False)
+class ConicProblem:
+    """
+    One conic program with the scaling that made it; see the module's text for the form.
+
+    Parameters
+    ----------
+    grasp : Grasp
+    virtual : VirtualContact
+    external_wrench : (6,) array [N, N m]
+    layout : Layout
+        Which variable and equation stands where.
+
+    """
+
+    grasp: Grasp
+    virtual: VirtualContact
+    external_wrench: np.ndarray
+    layout: Layout
+
+    @cached_property
+    def scaled_external_wrench(self):
+        """External wrench (6,) in the scaled units of the equilibrium."""
+        if not self.external_wrench.any():
+            return NO_WRENCH
+        return self.grasp.scaled_wrench(self.external_wrench)
+
+    @cached_property
+    def equation_values(self):
+        """E's stored entries, row by row, as the layout orders them."""
+        columns = np.concatenate(
+            [-self.grasp.scaled_matrix.reshape(6, -1), self.virtual.columns], axis=1)
+        return np.concatenate(
+            [columns[:, self.layout.source].ravel(), self.layout.bound_entries])
+
+    @cached_property
+    def E(self):
+        """Left side of the equations (rows, variables), dense, to look at and to test with."""
+        E = np.zeros(self.layout.shape)
+        for row in range(E.shape[0]):
+            span = slice(*self.layout.row_starts[row:row + 2])
+            E[row, self.layout.row_columns[span]] = self.equation_values[span]
+        return E
+
+    @cached_property
+    def e(self):
+        """Right side of the equations (rows,)."""
+        return np.concatenate([self.scaled_external_wrench, self.layout.bound_right])
+
+    @cached_property
+    def c(self):
+        """Objective (variables,)."""
+        objective = np.zeros(self.layout.shape[1])
+        objective[self.layout.virtual] = self.virtual.objective
+        return objective
+
+    @property
+    def cones(self):
+        """K as (kind, dimension) in the order of u; kind is 'nonnegative' or 'second_order'."""
+        return self.layout.cones
+
+    @property
+    def reach(self):
+        """Largest scaled force that the caps alone would allow; alpha's natural size, a0."""
+        return self.layout.cap_total(self.grasp)
+
+
+def build_problem(grasp, task, external_wrench=None):
+    """
+    State a task wrench or a task cone as a conic program.
+
+    Parameters
+    ----------
+    grasp : Grasp
+    task : TaskWrench or TaskCone
+    external_wrench : (6,) array_like [N, N m], optional
+        What the world applies on the object besides the fingers, about the object frame's origin.
+
+    Returns
+    -------
+    ConicProblem
+
+    Raises
+    ------
+    InvalidTaskError
+
+    """
+    if isinstance(task, TaskWrench):
+        wrenches = task.wrench[None]
+    elif isinstance(task, TaskCone):
+        spread = np.tan(task.half_angle)
+        wrenches = np.stack([task.axis, spread * task.lateral_x, spread * task.lateral_y])
+    else:
+        raise InvalidTaskError(
+            f'build_problem takes a TaskWrench or a TaskCone, got {type(task).__name__}: evaluate '
+            'a polytope or an ellipsoid with evaluate()')
+    columns = grasp.scaled_wrench(wrenches).T  # (6, t)
+    size = float(np.sqrt(columns[:, 0] @ columns[:, 0]))
+    objective = np.zeros(len(wrenches))
+    objective[0] = 1.0
+    virtual = VirtualContact(
+        columns / size, len(wrenches) > 1, objective, unit=1.0 / size, wrenches=wrenches)
+    return assemble(grasp, virtual, external_wrench)
+
+
+def assemble(grasp, virtual, external_wrench=None):
+    """Put a grasp and a virtual contact together; ``build_problem`` is the way for tasks."""
+    if external_wrench is None:
+        load = NO_WRENCH
+    else:
+        load = as_wrench(external_wrench, 'external wrench')
+    active = grasp.scales > 0.0
+    layout = layout_of(
+        active.tobytes(), grasp.groups, grasp.bound == 'l2',
+        virtual.columns.shape[1], virtual.is_cone, virtual.role)
+    return ConicProblem(grasp, virtual, load, layout)

@@ -1,0 +1,194 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The proof that goes with every answer, computed apart from the solver, in plain numpy.
+
+From any multipliers (lambda for equilibrium, nu for the bound) weak duality gives an upper bound of
+the objective, once they are made exactly feasible: nu is recomputed from lambda through the support
+functions of the cones, and both are scaled until the virtual contact's condition holds
+(docs/derivations.md). From the forces come the equilibrium residual, the largest cone usage and the
+use of the bound. An answer counts only when ``Proof.holds``.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from grasp_quality import bounds, friction_cone
+from grasp_quality.arrays import frozen
+
+GAP_TOLERANCE = 1e-6       # of max(objective, 1e-3 a0)
+RESIDUAL_TOLERANCE = 1e-8  # of the caps' total, torques over the lever arm
+USAGE_TOLERANCE = 1e-9     # over a cone usage, or a use of the bound, of one
+INFEASIBILITY_TOLERANCE = 1e-9  # of the caps' total: distance to any feasible load
+ENDLESS = 1e6  # times the caps: a load that needs more counts as one that no forces balance
+
+
+@dataclass(frozen=True, eq=False)
+class Proof:
+    """
+    Evidence for one answer, in the scaled units of its problem.
+
+    Attributes
+    ----------
+    objective, upper : float
+        Value that the forces reach, and a bound that no forces can exceed.
+    residual : float
+        |G x + F_ext - alpha F| as a share of the caps' total.
+    usage : float
+        Largest cone usage of a contact.
+    bound_usage : float
+        How much of the force bound the normals take.
+    multiplier : (6,) array
+        lambda, the worth of equilibrium, made exactly feasible.
+    bound_multiplier : (k,) array
+        nu of each contact's group (for l2 of each contact).
+    size : float
+        Natural size of the objective, a0.
+
+    """
+
+    objective: float
+    upper: float
+    residual: float
+    usage: float
+    bound_usage: float
+    multiplier: np.ndarray
+    bound_multiplier: np.ndarray
+    size: float
+
+    @property
+    def gap(self):
+        """Upper bound minus objective, as a share of max(objective, 1e-3 a0)."""
+        return (self.upper - self.objective) / max(abs(self.objective), 1e-3 * self.size)
+
+    @property
+    def holds(self):
+        """Whether gap, residual, cone usage and use of the bound are all within tolerance."""
+        return bool(
+            self.gap <= GAP_TOLERANCE
+            and self.residual <= RESIDUAL_TOLERANCE
+            and self.usage <= 1.0 + USAGE_TOLERANCE
+            and self.bound_usage <= 1.0 + USAGE_TOLERANCE)
+
+    def __str__(self):
+        """State the four numbers in one line."""
+        return (f'gap {self.gap:.2g}, residual {self.residual:.2g}, usage {self.usage:.12g}, '
+                f'use of the bound {self.bound_usage:.12g}')
+
+
+def prove(problem, forces, values, multipliers):
+    """
+    Judge an answer.
+
+    Parameters
+    ----------
+    problem : ConicProblem
+    forces : (k, 4) array [N, N, N, N m]
+        Local contact forces.
+    values : (t,) array
+        Variables of the virtual contact.
+    multipliers : (6,) array
+        The solver's lambda; anything is allowed here, a bad one gives a bad bound.
+
+    Returns
+    -------
+    Proof
+
+    """
+    grasp, virtual = problem.grasp, problem.virtual
+    worth, per_contact, bound_total = worth_of(grasp, multipliers)
+    slack = _virtual_slack(problem, multipliers, per_contact, bound_total)
+    upper = multipliers @ problem.scaled_external_wrench
+    if virtual.role != 'widening':
+        upper += bound_total
+    scale = 1.0
+    if virtual.objective[0] > 0.0:
+        scale = 1.0 / slack if slack > 0.0 else np.inf
+    elif slack < -1.0:
+        scale = -1.0 / slack
+    with np.errstate(invalid='ignore'):
+        upper, multipliers, per_contact = upper * scale, multipliers * scale, per_contact * scale
+
+    shares = grasp.shares(forces)
+    balance = (grasp.scaled_matrix.reshape(6, -1) @ shares.ravel()
+               + problem.scaled_external_wrench)
+    allowed = 1.0
+    if virtual.role == 'widening':
+        allowed = values[0]
+    else:
+        balance = balance - virtual.columns @ values
+    pressed = shares[:, 2] + (values[0] if virtual.role == 'pressing' else 0.0)
+    used = bounds.gauge(pressed, grasp.bound, grasp.groups)
+    load = problem.scaled_external_wrench
+    scale_of_forces = max(problem.reach, np.sqrt(load @ load))
+    return Proof(
+        objective=float(virtual.objective @ values), upper=float(upper),
+        residual=float(np.sqrt(balance @ balance)) / scale_of_forces,
+        usage=float(friction_cone.usage(forces, grasp.scales, grasp.max_normal_forces).max()),
+        bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
+        multiplier=frozen(multipliers), bound_multiplier=frozen(per_contact),
+        size=1.0 if virtual.role != 'task' else problem.reach)
+
+
+def infeasibility_margin(problem, direction):
+    """
+    Distance that a direction proves between the load and anything the grasp can balance.
+
+    Parameters
+    ----------
+    problem : ConicProblem
+    direction : (6,) array
+        Candidate lambda, in scaled units.
+
+    Returns
+    -------
+    float, as a share of the caps' total; the problem is infeasible when it is positive.
+
+    """
+    widest = ENDLESS
+    if problem.virtual.role != 'widening':
+        widest = 1.0
+        axis = problem.virtual.columns[:, 0]
+        slack = _virtual_slack(problem, direction, np.zeros(len(problem.grasp)), 0.0)
+        direction = direction + max(0.0, -slack) * axis / (axis @ axis)
+    size = np.sqrt(direction @ direction)
+    if not size > 0.0:
+        return 0.0
+    _, _, bound_total = worth_of(problem.grasp, direction)
+    work = widest * bound_total + direction @ problem.scaled_external_wrench
+    return float(-work / size / problem.reach)
+
+
+def worth_of(grasp, multipliers):
+    """
+    Value what each contact can do along a scaled lambda.
+
+    Returns
+    -------
+    (k,) array : support function of each contact's cone at its cap
+    (k,) array : smallest feasible multiplier nu of its bound
+    float : support function of the wrench space, sigma_W(lambda)
+
+    """
+    h = (multipliers @ grasp.scaled_matrix.reshape(6, -1)).reshape(-1, 4)
+    worth = friction_cone.support(h, 1.0)
+    useful = np.maximum(worth, 0.0)
+    if grasp.bound in ('linf', 'l2'):
+        per_contact = useful
+    elif grasp.bound == 'l1':
+        per_contact = np.full(len(useful), useful.max())
+    else:
+        per_contact = bounds.group_maxima(useful, grasp.groups)[list(grasp.groups)]
+    return worth, per_contact, bounds.support(worth, grasp.bound, grasp.groups)
+
+
+def _virtual_slack(problem, multipliers, per_contact, bound_total):
+    """Left side of the virtual contact's dual condition: axis minus norm of the rest."""
+    virtual = problem.virtual
+    if virtual.role == 'widening':
+        return -bound_total
+    along = multipliers @ virtual.columns
+    if virtual.is_cone:
+        return along[0] - np.sqrt(along[1:] @ along[1:])
+    return along[0] + (per_contact.sum() if virtual.role == 'pressing' else 0.0)

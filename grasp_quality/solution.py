@@ -1,0 +1,250 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Answers: values, forces, their proof and their sensitivities.
+
+Infeasible is an answer, not an error: status INFEASIBLE, alpha 0 and no forces. Sensitivities are
+derived from the multipliers when they are read (docs/derivations.md); at a kink they are one
+subgradient.
+"""
+
+import enum
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from grasp_quality.arrays import frozen
+from grasp_quality.grasp import Grasp
+from grasp_quality.proof import Proof
+from grasp_quality.wrench import cross
+
+NO_FORCES = frozen(np.zeros((0, 4)))
+NO_USAGE = frozen(np.zeros(0))
+
+
+class Status(enum.Enum):
+    """Outcome of a measure."""
+
+    OPTIMAL = 'optimal'
+    OPTIMAL_NO_INTERIOR = 'optimal, but without friction margin: no strictly interior force exists'
+    INFEASIBLE = 'infeasible'
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """
+    Answer for one task.
+
+    Attributes
+    ----------
+    grasp : Grasp
+    status : Status
+    alpha : float
+        Largest factor by which the task wrench can be applied (for a cone: alpha_z); 0 when
+        infeasible. With a barrier weight, the factor that the returned forces apply.
+    alpha_upper : float
+        Dual bound: no admissible forces apply more.
+    alpha_lower : float
+        Smallest feasible factor >= 0; more than 0 only with an external wrench.
+    holdable : bool
+        Whether alpha = 0 is feasible: the external wrench alone can be balanced.
+    pinned : bool
+        Whether alpha is fixed by the external wrench alone, in a rank-deficient grasp that cannot
+        produce the task wrench: alpha then says nothing about strength.
+    wrench : (6,) array [N, N m]
+        Applied besides balancing the external wrench: alpha F, about the object frame's origin.
+    forces : (k, 4) array [N, N, N, N m]
+        [t1, t2, n, m_n] in the contact frames, finger on object; (0, 4) when infeasible.
+    cone_usage : (k,) array
+        Share of each friction cone in use; (0,) when infeasible.
+    proof : Proof or None
+        Evidence; None when infeasible.
+    multiplier : (6,) array
+        lambda = d alpha / d F_ext [1/N, 1/(N m)].
+    barrier_weight : float
+        eps of eq. (11); in the unit of alpha.
+
+    """
+
+    grasp: Grasp
+    status: Status
+    alpha: float
+    alpha_upper: float
+    alpha_lower: float
+    holdable: bool
+    pinned: bool
+    wrench: np.ndarray
+    forces: np.ndarray
+    cone_usage: np.ndarray
+    proof: Proof
+    multiplier: np.ndarray
+    bound_multiplier: np.ndarray
+    reference_forces: np.ndarray
+    barrier_weight: float = 0.0
+
+    @property
+    def feasible(self):
+        """Whether there are forces: any status but INFEASIBLE."""
+        return self.status is not Status.INFEASIBLE
+
+    @property
+    def alpha_interval(self):
+        """Feasible factors (alpha_lower, alpha)."""
+        return self.alpha_lower, self.alpha
+
+    @property
+    def friction_margin(self):
+        """1 minus the largest cone usage; 0 when infeasible."""
+        return 1.0 - float(self.cone_usage.max()) if self.feasible else 0.0
+
+    @property
+    def dalpha_dexternal_wrench(self):
+        """Derivative of the largest alpha by the external wrench (6,) [1/N, 1/(N m)]."""
+        return self.multiplier
+
+    @cached_property
+    def dalpha_dmax_force(self):
+        """Derivative of the largest alpha by each cap f_max (k,) [1/N]."""
+        caps = self.grasp.max_normal_forces
+        shares = self.reference_forces[:, 2] / caps if self.feasible else np.zeros(len(caps))
+        return frozen(self.bound_multiplier * shares / caps)
+
+    @cached_property
+    def dalpha_dfriction(self):
+        """Derivative of the largest alpha by each friction coefficient mu (k,) [-]."""
+        if not self.feasible:
+            return frozen(np.zeros(len(self.grasp)))
+        h = self._local_multipliers
+        mu = self.grasp.scales[:, 0]
+        tangential = np.sqrt(h[:, 0] ** 2 + h[:, 1] ** 2)
+        along = self._friction_worth
+        slope = np.where(along > 0.0, mu * tangential ** 2 / np.where(along > 0.0, along, 1.0),
+                         tangential)
+        return frozen(self.reference_forces[:, 2] * slope * self._has_friction)
+
+    @cached_property
+    def limiting_contact(self):
+        """Name of the contact whose cap is worth most to the task; '' when none is."""
+        return self.grasp.names[self._limit] if self._limit is not None else ''
+
+    @cached_property
+    def limiting_reason(self):
+        """
+        Why that contact limits the task: 'slip', 'cap', or '' when none does.
+
+        A stronger press is worth h_n + |friction part| at the contact: 'slip' when most of it
+        comes through friction, so that more friction would help as well.
+
+        """
+        if self._limit is None:
+            return ''
+        i = self._limit
+        return 'slip' if self._friction_worth[i] >= abs(self._local_multipliers[i, 2]) else 'cap'
+
+    @cached_property
+    def _limit(self):
+        worth = self.dalpha_dmax_force * self.grasp.max_normal_forces
+        best = int(np.argmax(worth))
+        return best if worth[best] > 1e-6 * max(self.alpha, 1e-300) else None
+
+    @cached_property
+    def _local_multipliers(self):
+        """G_i^T lambda of every contact (k, 4)."""
+        return (self.multiplier @ self.grasp.matrix.reshape(6, -1)).reshape(-1, 4)
+
+    @cached_property
+    def _friction_worth(self):
+        h = self._local_multipliers * self.grasp.scales
+        return np.sqrt(h[:, 0] ** 2 + h[:, 1] ** 2 + h[:, 3] ** 2)
+
+    @cached_property
+    def _has_friction(self):
+        return np.array([c.model.value != 'FPC' for c in self.grasp.contacts])
+
+
+@dataclass(frozen=True, eq=False)
+class ConeSolution(Solution):
+    """
+    Answer for a task cone: alpha is alpha_z, wrench the wrench reached.
+
+    Attributes
+    ----------
+    alpha_axis : float
+        Largest factor along the bare axis.
+    alpha_worst : float or None
+        Least factor over the sampled directions of the cone's surface; None without samples.
+
+    """
+
+    alpha_axis: float = 0.0
+    alpha_worst: float = None
+
+
+@dataclass(frozen=True, eq=False)
+class PolytopeSolution:
+    """
+    Answer for several wrenches, each solved by itself (eq. 18).
+
+    What is guaranteed is conv{0, alpha_i F_i}, not the parallelotope that eq. (19) of the paper
+    claims; ``parallelotope_scale`` is the exact share of that which the grasp holds.
+
+    Attributes
+    ----------
+    status : Status
+        INFEASIBLE when any wrench is.
+    quality : float
+        sum_i w_i alpha_i.
+    alphas : (n,) array
+    forces : (n, k, 4) array
+        (0, k, 4) when infeasible.
+    solutions : tuple of Solution
+    parallelotope_scale : float or None
+        None for more than 8 wrenches, and for ellipsoids.
+    guaranteed_scale : float or None
+        For an ellipsoid: min alpha / sqrt(n), by which the whole ellipsoid can be scaled.
+
+    """
+
+    status: Status
+    quality: float
+    alphas: np.ndarray
+    forces: np.ndarray
+    solutions: tuple
+    parallelotope_scale: float = None
+    guaranteed_scale: float = None
+
+    @property
+    def alpha_min(self):
+        """Smallest of the factors."""
+        return float(self.alphas.min())
+
+
+@dataclass(frozen=True, eq=False)
+class WrenchMap:
+    """
+    Alpha for many directions (Fig. 3b).
+
+    Attributes
+    ----------
+    directions : (N, 6) array [N, N m]
+    alpha : (N,) array
+        0 where infeasible.
+    feasible : (N,) bool array
+    forces : (N, k, 4) array or None
+        On request; zero where infeasible.
+
+    """
+
+    directions: np.ndarray
+    alpha: np.ndarray
+    feasible: np.ndarray
+    forces: np.ndarray = None
+
+
+def dimensional_multiplier(problem, multiplier):
+    """Turn a scaled lambda (6,) into d alpha / d F_ext about the object frame's origin."""
+    grasp = problem.grasp
+    per_unit = multiplier * (problem.virtual.unit / grasp.force_scale)
+    torque = per_unit[3:] / grasp.lever_arm
+    return frozen(np.concatenate([per_unit[:3] - cross(torque, grasp.center), torque]))

@@ -1,0 +1,157 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Solve: a conic program to an answer with its proof.
+
+``prove_optimal`` runs the solver until its answer passes the proof or proves infeasibility; an
+answer that does neither, "almost solved" included, is a SolverError. ``solve`` turns that into the
+Solution of a task.
+"""
+
+import dataclasses
+
+import numpy as np
+
+from grasp_quality import clarabel_solver, friction_cone
+from grasp_quality.arrays import frozen
+from grasp_quality.bounds import gauge
+from grasp_quality.exceptions import SolverError
+from grasp_quality.proof import GAP_TOLERANCE, INFEASIBILITY_TOLERANCE, infeasibility_margin, prove
+from grasp_quality.solution import (
+    NO_FORCES, NO_USAGE, ConeSolution, Solution, Status, dimensional_multiplier)
+
+NO_WRENCH = frozen(np.zeros(6))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Optimum:
+    """
+    A proved answer in physical forces.
+
+    ``forces`` (k, 4) [N, N, N, N m], ``values`` (t,) of the virtual contact, ``proof``.
+
+    """
+
+    forces: np.ndarray
+    values: np.ndarray
+    proof: object
+
+
+def prove_optimal(problem, time_limit_s=None):
+    """
+    Solve a conic program until the proof holds.
+
+    Parameters
+    ----------
+    problem : ConicProblem
+    time_limit_s : float, optional
+        Of each attempt [s].
+
+    Returns
+    -------
+    Optimum, or None when the problem is proved infeasible
+
+    Raises
+    ------
+    SolverError, SolverTimeoutError
+
+    """
+    said = []
+    for attempt in range(len(clarabel_solver.TOLERANCES)):
+        answer = clarabel_solver.run(problem, attempt, time_limit_s)
+        if answer.outcome == 'infeasible':
+            margin = infeasibility_margin(problem, answer.multipliers[:6])
+            if margin > INFEASIBILITY_TOLERANCE:
+                return None
+            said.append(f'{answer.status} with margin {margin:.2g}')
+        elif answer.outcome == 'solved':
+            optimum = _optimum(problem, answer)
+            if optimum.proof.holds:
+                return optimum
+            said.append(f'{answer.status} with {optimum.proof}')
+        else:
+            said.append(answer.status)
+    raise SolverError(
+        'no answer could be proved; the solver said: ' + '; '.join(said), problem, said[-1])
+
+
+def _optimum(problem, answer):
+    grasp, role = problem.grasp, problem.virtual.role
+    values = answer.u[problem.layout.virtual]
+    shares = problem.layout.shares(answer.u)
+    if role != 'widening':
+        # the solver holds the equations to its tolerance only; the caps shall hold exactly
+        pressed = shares[:, 2] + (values[0] if role == 'pressing' else 0.0)
+        excess = max(1.0, gauge(pressed, grasp.bound, grasp.groups))
+        shares /= excess
+        if not problem.external_wrench.any():
+            values = values / excess
+    forces = frozen(shares * grasp.force_units)
+    return Optimum(forces, values, prove(problem, forces, values, answer.multipliers[:6]))
+
+
+def solve(problem, time_limit_s=None):
+    """
+    Solve the conic program of a task wrench or a task cone.
+
+    Parameters
+    ----------
+    problem : ConicProblem
+        From ``build_problem``.
+    time_limit_s : float, optional
+        [s]
+
+    Returns
+    -------
+    Solution (ConeSolution for a cone, without alpha_axis and alpha_worst filled in)
+
+    Raises
+    ------
+    SolverError, SolverTimeoutError
+
+    """
+    grasp, virtual = problem.grasp, problem.virtual
+    kind = ConeSolution if virtual.is_cone else Solution
+    optimum = prove_optimal(problem, time_limit_s)
+    if optimum is None:
+        return infeasible(kind, grasp)
+    proof, unit = optimum.proof, virtual.unit
+    alpha = max(0.0, min(float(optimum.values[0]), proof.upper)) * float(unit)
+    loaded = bool(problem.external_wrench.any())
+    lower, holdable = _lower_end(problem, alpha, time_limit_s) if loaded else (0.0, True)
+    # without a load only alpha = 0 can come of a wrench that the grasp does not span
+    suspect = loaded or alpha <= GAP_TOLERANCE * proof.size * unit
+    pinned = suspect and not virtual.is_cone and not grasp.spans(virtual.wrenches[0])
+    return kind(
+        grasp=grasp, status=Status.OPTIMAL, alpha=alpha,
+        alpha_upper=max(proof.upper * unit, alpha), alpha_lower=lower, holdable=holdable,
+        pinned=pinned, wrench=frozen((optimum.values * unit) @ virtual.wrenches),
+        forces=optimum.forces,
+        cone_usage=frozen(friction_cone.usage(
+            optimum.forces, grasp.scales, grasp.max_normal_forces)),
+        proof=proof, multiplier=dimensional_multiplier(problem, proof.multiplier),
+        bound_multiplier=frozen(proof.bound_multiplier * unit),
+        reference_forces=optimum.forces)
+
+
+def infeasible(kind, grasp):
+    """Answer that no forces inside cones and caps balance the external wrench with the task."""
+    return kind(
+        grasp=grasp, status=Status.INFEASIBLE, alpha=0.0, alpha_upper=0.0, alpha_lower=0.0,
+        holdable=False, pinned=False, wrench=NO_WRENCH, forces=NO_FORCES, cone_usage=NO_USAGE,
+        proof=None, multiplier=NO_WRENCH, bound_multiplier=frozen(np.zeros(len(grasp))),
+        reference_forces=NO_FORCES)
+
+
+def _lower_end(problem, alpha, time_limit_s):
+    """Smallest feasible alpha >= 0 and whether it is zero; the problem is known to be feasible."""
+    downward = dataclasses.replace(problem, virtual=dataclasses.replace(
+        problem.virtual, objective=-problem.virtual.objective))
+    optimum = prove_optimal(downward, time_limit_s)
+    unit = problem.virtual.unit
+    if optimum is None:  # feasible upward and infeasible downward: a load at the very edge
+        return alpha, False
+    lower = min(max(float(optimum.values[0]), 0.0) * unit, alpha)
+    if lower <= GAP_TOLERANCE * max(alpha, 1e-3 * unit * problem.reach):
+        return 0.0, True
+    return lower, False

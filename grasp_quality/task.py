@@ -1,0 +1,151 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Tasks: which wrenches the grasp is asked to apply to the object.
+
+All wrenches are about the origin of the object frame and are taken as given, never normalised:
+alpha multiplies them. The paper's view is kept: a task is a virtual contact whose columns stand
+with a minus sign in the grasp matrix (section IV); ``problem`` builds it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from grasp_quality.arrays import checked, checked_number, frozen
+from grasp_quality.exceptions import InvalidTaskError
+from grasp_quality.wrench import as_wrench
+
+
+def _nonzero(value, name):
+    wrench = as_wrench(value, name)
+    if not wrench.any():
+        raise InvalidTaskError(f'{name} must not be zero: a zero wrench has no direction to scale')
+    return wrench
+
+
+@dataclass(frozen=True, eq=False)
+class TaskWrench:
+    """
+    One wrench F (6,) [N, N m] to apply as strongly as possible: a virtual FPC (eq. 11).
+
+    Raises
+    ------
+    InvalidTaskError
+
+    """
+
+    wrench: np.ndarray
+
+    def __post_init__(self):
+        """Validate and copy."""
+        object.__setattr__(self, 'wrench', _nonzero(self.wrench, 'task wrench'))
+
+
+@dataclass(frozen=True, eq=False)
+class TaskCone:
+    """
+    A cone of wrenches around an axis: a virtual PCWF (section IV).
+
+    The wrench is alpha_z axis + x lateral_x + y lateral_y, |(x, y)| <= tan(half_angle) alpha_z.
+
+    Parameters
+    ----------
+    axis, lateral_x, lateral_y : (6,) array_like [N, N m]
+    half_angle : float [rad]
+        In [0, pi/2).
+    surface_samples : int
+        Directions on the cone's surface that ``alpha_worst`` is the least of; 0 leaves it out.
+
+    Raises
+    ------
+    InvalidTaskError
+
+    """
+
+    axis: np.ndarray
+    lateral_x: np.ndarray
+    lateral_y: np.ndarray
+    half_angle: float
+    surface_samples: int = 32
+
+    def __post_init__(self):
+        """Validate and copy."""
+        object.__setattr__(self, 'axis', _nonzero(self.axis, 'axis'))
+        for name in ('lateral_x', 'lateral_y'):
+            object.__setattr__(self, name, as_wrench(getattr(self, name), name))
+        object.__setattr__(self, 'half_angle', checked_number(
+            self.half_angle, 'half_angle [rad]', InvalidTaskError, minimum=0.0, below=np.pi / 2))
+        samples = self.surface_samples
+        if not isinstance(samples, (int, np.integer)) or samples < 0:
+            raise InvalidTaskError(f'surface_samples must be a whole number >= 0, got {samples!r}')
+
+    @property
+    def surface(self):
+        """Wrenches (surface_samples, 6) on the cone's surface, at axis component one."""
+        angles = np.linspace(0.0, 2.0 * np.pi, self.surface_samples, endpoint=False)[:, None]
+        radius = np.tan(self.half_angle)
+        return self.axis + radius * (
+            np.cos(angles) * self.lateral_x + np.sin(angles) * self.lateral_y)
+
+
+@dataclass(frozen=True, eq=False)
+class TaskPolytope:
+    """
+    Several wrenches (n, 6), each solved by itself and summed with weights (eq. 18).
+
+    ``weights`` (n,) are >= 0 and not all zero, taken as given; 1/n each when left out.
+
+    Raises
+    ------
+    InvalidTaskError
+
+    """
+
+    wrenches: np.ndarray
+    weights: np.ndarray = None
+
+    def __post_init__(self):
+        """Validate and copy."""
+        wrenches = checked(self.wrenches, (None, 6), 'task wrenches', InvalidTaskError)
+        _check_rows(wrenches, 'task_wrenches')
+        if self.weights is None:
+            weights = frozen(np.full(len(wrenches), 1.0 / len(wrenches)))
+        else:
+            weights = checked(self.weights, (len(wrenches),), 'weights', InvalidTaskError)
+        if (weights < 0.0).any() or not weights.any():
+            raise InvalidTaskError(
+                f'weights must be >= 0 with at least one > 0, got {weights.tolist()}')
+        object.__setattr__(self, 'wrenches', wrenches)
+        object.__setattr__(self, 'weights', weights)
+
+
+@dataclass(frozen=True, eq=False)
+class TaskEllipsoid:
+    """
+    An ellipsoid of wrenches, given by its principal semi-axes (n, 6) (end of section V).
+
+    Evaluated through the 2 n wrenches at the ends of the axes, so that only the ellipsoid scaled
+    by min alpha / sqrt(n) is guaranteed.
+
+    Raises
+    ------
+    InvalidTaskError
+
+    """
+
+    axes: np.ndarray
+
+    def __post_init__(self):
+        """Validate and copy."""
+        axes = checked(self.axes, (None, 6), 'ellipsoid axes', InvalidTaskError)
+        _check_rows(axes, 'ellipsoid axes')
+        object.__setattr__(self, 'axes', axes)
+
+
+def _check_rows(wrenches, name):
+    if not len(wrenches):
+        raise InvalidTaskError(f'{name} must hold at least one wrench, got none')
+    zero = [i for i, row in enumerate(wrenches) if not row.any()]
+    if zero:
+        raise InvalidTaskError(f'{name} must not be zero, but rows {zero} are')
