@@ -166,8 +166,10 @@ def _measured(point):
 
 
 def rotation_with_z(normal):
-    """Return the rotation, shape (3, 3), whose third column is the unit vector normal."""
-    helper = np.eye(3)[np.argmin(np.abs(normal))]
-    x = np.cross(helper, normal)
-    x /= np.linalg.norm(x)
-    return np.stack([x, np.cross(normal, x), normal], axis=1)
+    """Return a rotation, shape (3, 3), whose third column is the unit vector normal."""
+    x, y, z = normal
+    sign = 1.0 if z >= 0.0 else -1.0    # no division by anything below 1
+    a = 1.0 / (1.0 + sign * z)
+    return np.array([[1.0 - a * x * x, -sign * a * x * y, x],
+                     [-a * x * y, sign * (1.0 - a * y * y), y],
+                     [-sign * x, -y, z]])

@@ -8,13 +8,14 @@ import mujoco
 import numpy as np
 
 from grasp_quality_hand.hand_model import TIP_RADIUS
-from grasp_quality_hand.kinematics import inverse_kinematics, tip_jacobian, tip_positions
+from grasp_quality_hand.kinematics import inverse_kinematics, tip_positions
 
 STIFFNESS = 10.0              # of the joints [N m/rad]
 JOINT_DAMPING = 0.4           # [N m s/rad]
 CLEARANCE = 0.03              # of the open fingertips from the object [m]
 APPROACH_TIME = 0.6           # from open to touch [s]
 SQUEEZE_TIME = 0.4            # from touch to the full squeeze [s]
+NO_TORQUE = np.zeros(3)
 
 
 class Phase(enum.Enum):
@@ -91,12 +92,12 @@ class GraspController:
         return (1.0 - s) * self.q_open + s * self.q_touch
 
     def _squeeze_torques(self, data):
-        """Return J^T f of the full squeeze, shape (9,)."""
+        """Return J^T f of the full squeeze, shape (9,) [N m]."""
         hand = self._hand
         R_world_object = data.xmat[hand.object_body].reshape(3, 3)
         forces = self._squeeze_force * self._object.squeeze @ R_world_object.T
         forces = forces + self._weight / len(forces)    # (3, 3), world frame [N]
-        mujoco.mj_comPos(hand.mujoco, data)
-        tips = tip_positions(hand, data)
-        return np.concatenate([tip_jacobian(hand, data, finger, tip).T @ force
-                               for finger, (tip, force) in enumerate(zip(tips, forces))])
+        generalised = np.zeros(hand.mujoco.nv)
+        for body, tip, force in zip(hand.tip_bodies, tip_positions(hand, data), forces):
+            mujoco.mj_applyFT(hand.mujoco, data, force, NO_TORQUE, tip, body, generalised)
+        return generalised[hand.joint_dof]

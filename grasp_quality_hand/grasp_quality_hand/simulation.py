@@ -55,12 +55,14 @@ class HandSimulation:
         self.controller.open()
 
     def advance(self, duration):
-        """Simulate for a duration in seconds."""
-        for _ in range(round(duration / TIMESTEP)):
+        """Simulate whole time steps for about a duration in seconds; return their sum."""
+        steps = round(duration / TIMESTEP)
+        for _ in range(steps):
             if self.controller.squeeze_share(self.time) == 1.0:
                 self.data.eq_active[self.hand.holder] = 0
             self.data.ctrl[:] = self.controller.torques(self.data)
             mujoco.mj_step(self.hand.mujoco, self.data)
+        return steps * TIMESTEP
 
     def finger_contacts(self):
         """Return one MeasuredContact per finger, in the order of FINGERS."""
