@@ -1,6 +1,6 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC1090,SC1091,SC2296
 
 # Puts .venv and install/ into a bash or zsh:  . ./env.sh
 # Discovery and transport stay as they are: a hand on the network must be found. The demo and the

@@ -19,9 +19,9 @@ mapfile -t sources < <(find setup.py env.sh Makefile .ci "${folders[@]}" -type f
     \( -name '*.py' -o -name '*.sh' -o -name '*.msg' -o -name '*.srv' -o -name 'CMakeLists.txt' \
     -o -name Makefile -o -name run \))
 headless=$(grep -L -e '^# SPDX-License-Identifier: Apache-2.0$' "${sources[@]}")
-[ -z "$headless" ] || { printf 'no licence header: %s\n' $headless; code=1; }
+[ -z "$headless" ] || { printf 'no licence header:\n%s\n' "$headless"; code=1; }
 long=$(wc -l "${sources[@]}" | awk '$2 != "total" && $1 > 250 {print $2 ": " $1 " lines"}')
-[ -z "$long" ] || { printf 'over 250 lines: %s\n' "$long"; code=1; }
+[ -z "$long" ] || { printf 'over 250 lines:\n%s\n' "$long"; code=1; }
 
 [ $code -eq 0 ] && echo "lint: ${#sources[@]} files clean"
 exit $code
