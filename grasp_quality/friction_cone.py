@@ -10,7 +10,7 @@ Local coordinates are [t1, t2, n, m_n] in the contact frame. Dividing them by
 
 import numpy as np
 
-UNLOADED = 1e-9  # share of f_max below which a contact counts as not loaded
+UNLOADED = 1e-6  # share of f_max below which a contact counts as not loaded
 
 
 def coordinate_scales(friction, torsional_friction):
@@ -35,7 +35,7 @@ def tangential_norm(local, scales):
     return np.sqrt((scaled * scaled).sum(axis=1))
 
 
-def usage(forces, scales, max_normal_force):
+def usage(forces, scales, max_normal_force, unloaded=UNLOADED):
     """
     Share of the friction cone in use, (k,): 0 at the axis, 1 at slip, more outside.
 
@@ -45,16 +45,18 @@ def usage(forces, scales, max_normal_force):
     scales : (k, 4) array
         From ``coordinate_scales``.
     max_normal_force : (k,) array [N]
-        A contact with every component below 1e-9 of it is not loaded and has usage 0.
+    unloaded : float
+        A contact with n and |(t/mu, m_n/gamma)| below this share of its cap has usage 0: what a
+        solver leaves on a contact that it does not need points anywhere.
 
     """
     norm = tangential_norm(forces, scales)
     normal = forces[:, 2]
     with np.errstate(divide='ignore', invalid='ignore'):
         share = np.where(normal > 0.0, norm / normal, np.inf)
-    small = UNLOADED * max_normal_force
-    unloaded = (np.abs(normal) <= small) & (norm <= small)
-    return np.where(unloaded | ((norm == 0.0) & (normal >= 0.0)), 0.0, share)
+    small = unloaded * max_normal_force
+    idle = (np.abs(normal) <= small) & (norm <= small)
+    return np.where(idle | ((norm == 0.0) & (normal >= 0.0)), 0.0, share)
 
 
 def support(local_wrench, scales):

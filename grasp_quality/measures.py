@@ -127,7 +127,8 @@ def slip_margin(grasp, forces):
     Returns
     -------
     (k,) array: 1 on the cone's axis and for an unloaded contact, 0 at slip, negative outside the
-    cone, -inf for a load that the contact model cannot carry at all.
+    cone, -inf for a tangential force where there is no friction at all. A measured moment counts
+    only where the contact model has torsional friction: the point contacts say nothing of it.
 
     Raises
     ------
@@ -135,4 +136,5 @@ def slip_margin(grasp, forces):
 
     """
     measured = checked(forces, (len(grasp), 4), 'measured forces', InvalidTaskError)
+    measured = np.where([1, 1, 1, 0], measured, measured * (grasp.scales > 0.0))
     return 1.0 - friction_cone.usage(measured, grasp.scales, grasp.max_normal_forces)

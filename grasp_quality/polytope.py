@@ -25,7 +25,7 @@ def evaluate_polytope(grasp, task, solve_one, external_wrench, time_limit_s):
     """Solve every wrench by ``solve_one(TaskWrench)``, and weigh; see ``measures.evaluate``."""
     solutions = [solve_one(TaskWrench(wrench)) for wrench in task.wrenches]
     summary = _summary(grasp, solutions, task.weights)
-    if len(solutions) > MAX_PARALLELOTOPE:
+    if not task.parallelotope or len(solutions) > MAX_PARALLELOTOPE:
         return PolytopeSolution(**summary)
     if not all(s.feasible and s.holdable for s in solutions):
         return PolytopeSolution(**summary, parallelotope_scale=0.0)

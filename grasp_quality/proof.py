@@ -21,6 +21,7 @@ GAP_TOLERANCE = 1e-6       # of max(objective, 1e-3 a0)
 RESIDUAL_TOLERANCE = 1e-8  # of the caps' total, torques over the lever arm
 USAGE_TOLERANCE = 1e-9     # over a cone usage, or a use of the bound, of one
 INFEASIBILITY_TOLERANCE = 1e-9  # of the caps' total: distance to any feasible load
+ROUNDING = 1e-12  # share of a cap that may stand outside its cone unseen
 ENDLESS = 1e6  # times the caps: a load that needs more counts as one that no forces balance
 
 
@@ -125,7 +126,8 @@ def prove(problem, forces, values, multipliers):
     return Proof(
         objective=float(virtual.objective @ values), upper=float(upper),
         residual=float(np.sqrt(balance @ balance)) / scale_of_forces,
-        usage=float(friction_cone.usage(forces, grasp.scales, grasp.max_normal_forces).max()),
+        usage=float(friction_cone.usage(
+            forces, grasp.scales, grasp.max_normal_forces, unloaded=ROUNDING).max()),
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
         multiplier=frozen(multipliers), bound_multiplier=frozen(per_contact),
         size=1.0 if virtual.role != 'task' else problem.reach)

@@ -200,7 +200,7 @@ class PolytopeSolution:
         (0, k, 4) when infeasible.
     solutions : tuple of Solution
     parallelotope_scale : float or None
-        None for more than 8 wrenches, and for ellipsoids.
+        None for more than 8 wrenches, for ellipsoids, and when the task does not ask for it.
     guaranteed_scale : float or None
         For an ellipsoid: min alpha / sqrt(n), by which the whole ellipsoid can be scaled.
 

@@ -95,6 +95,7 @@ class TaskPolytope:
     Several wrenches (n, 6), each solved by itself and summed with weights (eq. 18).
 
     ``weights`` (n,) are >= 0 and not all zero, taken as given; 1/n each when left out.
+    ``parallelotope`` tells whether to find the parallelotope's scale too, 2^n more solves.
 
     Raises
     ------
@@ -104,6 +105,7 @@ class TaskPolytope:
 
     wrenches: np.ndarray
     weights: np.ndarray = None
+    parallelotope: bool = True
 
     def __post_init__(self):
         """Validate and copy."""

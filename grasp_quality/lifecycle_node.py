@@ -1,0 +1,166 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The managed node: parameters, subscriptions, services and publishers, wired to the live loop.
+
+Everything is created at once and answers in every lifecycle state, so that a client never waits
+for a service that is not there; only an active node computes. Subscriptions store and trigger one
+guard condition, which solves once for all that has come in. Runs in a single-threaded executor.
+"""
+
+import functools
+
+from geometry_msgs.msg import PoseArray, WrenchStamped
+from rclpy.clock import Clock, ClockType
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from rclpy.parameter import Parameter
+
+from grasp_quality import node_parameters as parameters
+from grasp_quality.contact import Contact, ContactModel
+from grasp_quality.grasp import Grasp
+from grasp_quality.measures import evaluate
+from grasp_quality.node_diagnostics import PERIOD_S, Monitor
+from grasp_quality.node_inputs import Inputs
+from grasp_quality.node_live import LiveLoop
+from grasp_quality.node_outputs import Outputs
+from grasp_quality.node_services import Services
+from grasp_quality.task import TaskWrench
+from grasp_quality_msgs.msg import ContactArray
+from msg_adapters import qos
+from msg_adapters.errors import NotActiveError
+from msg_adapters.results import error_result
+
+WATCH_SHARE = 0.25  # of max_contact_age between two looks of the watchdog
+
+
+class GraspQualityNode(LifecycleNode):
+    """
+    Tells how much of a task wrench the present grasp can apply; see docs for its interface.
+
+    Raises
+    ------
+    ValueError
+        When a parameter override breaks a rule.
+
+    """
+
+    def __init__(self, **kwargs):
+        super().__init__('grasp_quality', **kwargs)
+        self.active = False
+        self.settings = parameters.declare(self)
+        current = lambda: self.settings  # noqa: E731  (settings are replaced, never changed)
+        self._monitor = Monitor(self)
+        self._inputs = Inputs(current, lambda: self.get_clock().now().nanoseconds)
+        self._inputs.set_task_wrench(self.settings.task_wrench)
+        self._outputs = Outputs(self)
+        self._outputs.declare_wrenches(self.settings.contact_names)
+        self._live = LiveLoop(self._inputs, self._outputs, current, self._monitor)
+        self._handlers = Services(self, self._inputs, current, lambda: self.active)
+        self._sample = self.create_guard_condition(self._guarded(self._on_sample))
+        self._subscribe()
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._watchdog = self.create_timer(
+            WATCH_SHARE * self.settings.max_contact_age, self._guarded(self._on_watch),
+            clock=steady)
+        self.create_timer(PERIOD_S, self._guarded(
+            lambda: self._monitor.report(self._inputs.problems)), clock=steady)
+        self.add_on_set_parameters_callback(
+            lambda changes: parameters.check(self.settings, changes))
+        self.add_post_set_parameters_callback(self._guarded(self._on_parameters))
+        self._guard_lifecycle_services()
+
+    def _subscribe(self):
+        def store(message_type, topic, keep, profile):
+            def receive(message):
+                keep(message)
+                self._sample.trigger()
+            self.create_subscription(message_type, topic, self._guarded(receive), profile)
+
+        inputs, sensor, command = self._inputs, qos.newest_sample(), qos.newest_command()
+        if self.settings.contact_source == 'pose_array':
+            store(PoseArray, '~/contact_poses', inputs.store_contacts, sensor)
+        else:
+            store(ContactArray, '~/contacts', inputs.store_contacts, sensor)
+        store(WrenchStamped, '~/task_wrench', inputs.store_task_wrench, command)
+        store(WrenchStamped, '~/external_wrench', inputs.store_load, command)
+        for name in self.settings.contact_names:
+            self.create_subscription(
+                WrenchStamped, f'~/contact_wrenches/{name}',
+                self._guarded(functools.partial(inputs.store_wrench, name)), sensor)
+
+    def _guarded(self, callback):
+        """Keep every exception inside the callback it came from."""
+        @functools.wraps(callback, assigned=())
+        def run(*args):
+            try:
+                return callback(*args)
+            except Exception as exc:
+                self.get_logger().error(
+                    f'internal error, please report it: {type(exc).__name__}: {exc}',
+                    throttle_duration_sec=1.0)
+        return run
+
+    def _guard_lifecycle_services(self):
+        # rclpy lets an impossible transition escape into spin() and leaves its client waiting
+        service = self._service_change_state
+        change_state = service.callback
+
+        def answer(request, response):
+            try:
+                return change_state(request, response)
+            except Exception as exc:
+                self.get_logger().warning(f'no such transition from here: {exc}')
+                response.success = False
+                return response
+        service.callback = answer
+
+    def _on_sample(self):
+        if self.active:
+            self._live.evaluate()
+
+    def _on_watch(self):
+        if self.active:
+            self._live.watch()
+
+    def _on_parameters(self, changes):
+        self.settings = parameters.changed(self.settings, changes)
+        names = [change.name for change in changes]
+        if 'task_wrench' in names:
+            self._inputs.set_task_wrench(self.settings.task_wrench)
+        if 'max_contact_age' in names:
+            self._watchdog.timer_period_ns = int(
+                1e9 * WATCH_SHARE * self.settings.max_contact_age)
+        if any(isinstance(change, Parameter) for change in changes):
+            self._sample.trigger()
+
+    def on_configure(self, state):
+        """Warm up: the first query after activation shall be as fast as the thousandth."""
+        for model in ContactModel:
+            contacts = [Contact((x, 0.0, 0.0), (-x, 0.0, 0.0), model, torsional_friction=0.005)
+                        for x in (-0.03, 0.03)]
+            evaluate(Grasp(contacts, self.settings.force_bound), TaskWrench([1, 0, 0, 0, 0, 0]),
+                     [0, 0, -0.1, 0, 0, 0], 1e-3)
+        return super().on_configure(state)
+
+    def on_activate(self, state):
+        """Begin to compute and to publish."""
+        result = super().on_activate(state)
+        self.active = result == TransitionCallbackReturn.SUCCESS
+        return result
+
+    def on_deactivate(self, state):
+        """Say that nothing published before holds any longer, then fall silent."""
+        self.silence('the node was deactivated')
+        return super().on_deactivate(state)
+
+    def on_shutdown(self, state):
+        """Say that nothing published before holds any longer, and end."""
+        self.silence('the node was shut down')
+        return super().on_shutdown(state)
+
+    def silence(self, reason):
+        """Publish NOT_ACTIVE with empty forces, and stop computing."""
+        if self.active:
+            self._outputs.publish_failure(error_result(NotActiveError(reason)))
+        self.active = False
+        self._inputs.clear()

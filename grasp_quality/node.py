@@ -1,0 +1,77 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Entry point of the executable grasp_quality_node.
+
+Spins a single-threaded executor (the multi-threaded one stalls on Jazzy), ends on SIGINT and
+SIGTERM alike with exit code 0, and says NOT_ACTIVE with empty forces before it goes.
+"""
+
+import signal
+import sys
+
+MISSING_INTERFACES = (
+    'grasp_quality_node: the interface package grasp_quality_msgs is not built or not sourced: in '
+    'a workspace run `colcon build --base-paths src "src/*/*"` and source install/setup.bash '
+    '(README, "In a ROS 2 workspace"); in a clone run `make setup` and `. ./env.sh`')
+
+
+def main(args=None):
+    """Run the node until a signal comes; return the process's exit code."""
+    try:
+        import grasp_quality_msgs  # noqa: F401
+    except ImportError:
+        print(MISSING_INTERFACES, file=sys.stderr)
+        return 1
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.signals import SignalHandlerOptions
+
+    stopping = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: stopping.append(True))
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        node = _make_node()
+        if node is None:
+            return 1
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        while not stopping and rclpy.ok():
+            _spin_once(executor, node)
+        node.silence('the node is ending')
+        executor.shutdown()
+        node.destroy_node()
+    finally:
+        rclpy.try_shutdown()
+    return 0
+
+
+def _make_node():
+    import rclpy
+    from rclpy.lifecycle import TransitionCallbackReturn
+
+    from grasp_quality.lifecycle_node import GraspQualityNode
+    try:
+        node = GraspQualityNode()
+    except (ValueError, rclpy.exceptions.ParameterException) as exc:
+        print(f'grasp_quality_node: {exc}', file=sys.stderr)
+        return None
+    if node.settings.autostart:
+        done = node.trigger_configure() == TransitionCallbackReturn.SUCCESS \
+            and node.trigger_activate() == TransitionCallbackReturn.SUCCESS
+        node.get_logger().info('active' if done else 'autostart failed: configure it by hand')
+    return node
+
+
+def _spin_once(executor, node):
+    """Run what is ready; the watchdog timer bounds how long this waits."""
+    try:
+        executor.spin_once()
+    except Exception as exc:  # of rclpy itself: our callbacks let nothing out
+        node.get_logger().error(
+            f'the executor raised {type(exc).__name__}: {exc}', throttle_duration_sec=1.0)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

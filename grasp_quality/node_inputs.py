@@ -1,0 +1,196 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What the node has received: the newest message of every topic, and how old it is.
+
+Callbacks only store. ``scene`` turns the newest contacts into core objects when they are asked for;
+a message that cannot be used is an error there, and the next good one is all it takes to recover.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from builtin_interfaces.msg import Time
+from rclpy.time import Time as RclpyTime
+
+from grasp_quality.contact import Contact
+from grasp_quality_msgs.srv import SetTask
+from msg_adapters.contacts import contacts_from_array, contacts_from_poses
+from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
+from msg_adapters.frames import object_frame_of, transform_to
+from msg_adapters.measured import local_force
+from msg_adapters.stamps import stamp_ns
+from msg_adapters.wrenches import to_wrench
+
+LOADED_MEASUREMENTS = 'no contact is loaded: no measured normal force reaches min_contact_force'
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """
+    Contacts of one instant.
+
+    Attributes
+    ----------
+    contacts : tuple of Contact
+        Those that count as loaded.
+    forces : tuple of (4,) array or None
+        Measured local force of each, where there is a fresh one.
+    frame : str
+        Object frame.
+    stamp : builtin_interfaces.msg.Time
+        When they were sensed.
+
+    """
+
+    contacts: tuple
+    forces: tuple
+    frame: str
+    stamp: Time
+
+
+class Inputs:
+    """Newest messages; ``settings()`` returns the current Settings, ``now_ns()`` the ROS time."""
+
+    def __init__(self, settings, now_ns):
+        self._settings = settings
+        self._now_ns = now_ns
+        self._contacts = None      # (message, arrival [ns])
+        self._wrenches = {}        # contact name: (message, arrival [ns])
+        self.task = None           # SetTask.Request
+        self.load = None           # WrenchStamped
+        self.tf_buffer = None      # tf2_ros.Buffer where tf2 is installed
+        self.problems = ()         # what was wrong with measured wrenches, last time
+
+    def clear(self):
+        """Forget contacts and measurements, as on deactivation; keep the task."""
+        self._contacts = None
+        self._wrenches = {}
+
+    def store_contacts(self, message):
+        """Keep a PoseArray or ContactArray."""
+        self._contacts = (message, self._now_ns())
+
+    def store_wrench(self, name, message):
+        """Keep the measured WrenchStamped of a contact."""
+        self._wrenches[name] = (message, self._now_ns())
+
+    def store_task_wrench(self, message):
+        """Keep a WrenchStamped as the task of the live loop."""
+        self.task = SetTask.Request(
+            header=message.header, kind=SetTask.Request.WRENCH, task_wrench=message.wrench)
+
+    def store_load(self, message):
+        """Keep a WrenchStamped as the external wrench of the live loop."""
+        self.load = message
+
+    def set_task_wrench(self, wrench):
+        """Keep fx fy fz tx ty tz in the object frame as the task; empty leaves the task alone."""
+        if len(wrench):
+            self.task = SetTask.Request(
+                kind=SetTask.Request.WRENCH, task_wrench=to_wrench(wrench))
+
+    def age_s(self):
+        """
+        Age of the newest contacts [s], by stamp and arrival.
+
+        Raises
+        ------
+        NoContactsError, StaleContactsError
+
+        """
+        if self._contacts is None:
+            raise NoContactsError(
+                'no contacts received yet: publish them on ~/contact_poses or ~/contacts, as '
+                'parameter contact_source says')
+        limit = self._settings().max_contact_age
+        message, arrival = self._contacts
+        ages = self._ages(message, arrival)
+        if min(ages) < -limit:
+            raise StaleContactsError(
+                f'the contacts are stamped {-min(ages):.3f} s ahead of this clock: synchronise '
+                'the clocks (max_contact_age is the tolerance)')
+        if max(ages) > limit:
+            raise StaleContactsError(
+                f'the newest contacts are {max(ages):.3f} s old, max_contact_age is {limit:g} s')
+        return max(max(ages), 0.0)
+
+    def scene(self):
+        """
+        Newest loaded contacts, checked and in the object frame.
+
+        Raises
+        ------
+        NoContactsError, StaleContactsError, InvalidMessageError, TransformError
+
+        """
+        self.age_s()
+        message = self._contacts[0]
+        contacts, frame = self.read_contacts(message)
+        forces = self._measured(contacts, frame)
+        threshold = self._settings().min_contact_force
+        if threshold > 0.0:
+            loaded = [i for i, force in enumerate(forces)
+                      if force is not None and force[2] >= threshold]
+            if contacts and not loaded:
+                raise NoContactsError(LOADED_MEASUREMENTS)
+            contacts, forces = [contacts[i] for i in loaded], [forces[i] for i in loaded]
+        if not contacts:
+            raise NoContactsError('the newest contact message holds no contacts')
+        return Scene(tuple(contacts), tuple(forces), frame, message.header.stamp)
+
+    def read_contacts(self, message):
+        """Turn a PoseArray or ContactArray into (list of Contact, object frame)."""
+        settings = self._settings()
+        frame = object_frame_of(message.header.frame_id, settings.object_frame)
+        transform = self.transform(message.header, frame)
+        items, read = (message.poses, contacts_from_poses) if hasattr(message, 'poses') else (
+            message.contacts, contacts_from_array)
+        if len(items) > settings.max_request_size:
+            raise InvalidMessageError(
+                f'contacts must number at most {settings.max_request_size} (parameter '
+                f'max_request_size), got {len(items)}')
+        return read(message, settings.contact_defaults, transform), frame
+
+    def transform(self, header, frame):
+        """Transform from a header's frame to the object frame; None for the identity."""
+        return transform_to(frame, header.frame_id, self.tf_buffer,
+                            RclpyTime.from_msg(header.stamp))
+
+    def _measured(self, contacts, frame):
+        """Fresh measured force (4,) of each contact, or None."""
+        forces, problems = [], []
+        limit = self._settings().max_contact_age
+        for contact in contacts:
+            message, arrival = self._wrenches.get(contact.name, (None, 0))
+            force = None
+            if message is not None:
+                ages = self._ages(message, arrival)
+                if -limit <= min(ages) and max(ages) <= limit:
+                    try:
+                        force = local_force(message, contact, frame)
+                    except InvalidMessageError as exc:
+                        problems.append(str(exc))
+            forces.append(force)
+        self.problems = tuple(problems)
+        return forces
+
+    def _ages(self, message, arrival):
+        now = self._now_ns()
+        stamp = stamp_ns(message.header.stamp) or arrival
+        return (now - stamp) * 1e-9, (now - arrival) * 1e-9
+
+
+def measured_margin(scene, slip_margin, grasp):
+    """
+    Smallest slip margin of the measured contacts, in [-1, 1]; None when none was measured.
+
+    A force outside its cone has a negative margin, without limit as the normal force goes to zero:
+    -1 stands for all that is further outside.
+
+    """
+    if all(force is None for force in scene.forces):
+        return None
+    measured = np.array([np.zeros(4) if f is None else f for f in scene.forces])
+    known = [f is not None for f in scene.forces]
+    return float(np.clip(slip_margin(grasp, measured)[known], -1.0, 1.0).min())

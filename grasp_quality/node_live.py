@@ -1,0 +1,103 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The live loop: one solve for every new sample of contacts, always of the newest.
+
+Nothing queues: a sample that arrives during a solve replaces the one before it. The watchdog
+publishes a failure at its own rate while contacts are missing or stale, so that silence is noticed
+at once. Errors of any kind end in a published code, never in an exception.
+"""
+
+import time
+
+from std_msgs.msg import Header
+
+from grasp_quality.grasp import Grasp
+from grasp_quality.measures import evaluate, slip_margin
+from grasp_quality.node_inputs import measured_margin
+from grasp_quality.solution import PolytopeSolution
+from grasp_quality.task import TaskCone, TaskPolytope
+from grasp_quality_msgs.msg import GraspQuality
+from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
+from msg_adapters.results import error_result, status_result
+from msg_adapters.stamps import to_duration
+from msg_adapters.tasks import live_task, load_from
+from msg_adapters.wrenches import to_wrench
+
+
+class LiveLoop:
+    """Evaluates ``inputs`` and publishes on ``outputs``; tells ``monitor`` how it went."""
+
+    def __init__(self, inputs, outputs, settings, monitor):
+        self._inputs = inputs
+        self._outputs = outputs
+        self._settings = settings
+        self._monitor = monitor
+
+    def evaluate(self):
+        """Solve the newest contacts for the live task and publish the answer."""
+        scene = None
+        try:
+            scene = self._inputs.scene()
+            quality, answer = self._answer(scene)
+            self._outputs.publish(quality, *answer)
+            self._monitor.count(quality)
+        except Exception as exc:
+            self._fail(exc, scene)
+
+    def watch(self):
+        """Publish a failure when there are no fresh contacts; otherwise leave it to the samples."""
+        try:
+            self._inputs.age_s()
+        except (NoContactsError, StaleContactsError) as exc:
+            self._fail(exc, None)
+
+    def _fail(self, exc, scene):
+        where = {} if scene is None else {'stamp': scene.stamp, 'frame': scene.frame}
+        result = error_result(exc)
+        self._monitor.count_failure(result, exc)
+        self._outputs.publish_failure(result, **where)
+
+    def _answer(self, scene):
+        settings = self._settings()
+        grasp = Grasp(scene.contacts, settings.force_bound)
+        started = time.perf_counter()
+        task, load = self._task_and_load(scene.frame)
+        solution = evaluate(grasp, task, load, settings.barrier_weight, settings.solver_time_limit)
+        solve_time = time.perf_counter() - started
+        solution, wrench = _governing(task, solution)
+        margin = measured_margin(scene, slip_margin, grasp)
+        quality = GraspQuality(
+            header=Header(stamp=scene.stamp, frame_id=scene.frame),
+            result=status_result(solution.status), task_wrench=to_wrench(wrench),
+            alpha=solution.alpha, alpha_upper=solution.alpha_upper,
+            alpha_lower=solution.alpha_lower, holdable=solution.holdable,
+            friction_margin=solution.friction_margin, limiting_contact=solution.limiting_contact,
+            contact_age=to_duration(self._inputs.age_s()), solve_time=to_duration(solve_time),
+            slip_measured=margin is not None, measured_slip_margin=margin or 0.0)
+        return quality, (grasp, solution.forces, solution.cone_usage)
+
+    def _task_and_load(self, frame):
+        inputs, limit = self._inputs, self._settings().max_request_size
+        if inputs.task is None:
+            raise InvalidMessageError(
+                'no task set: call ~/set_task, publish ~/task_wrench or set the parameter '
+                'task_wrench')
+        transform = inputs.transform(inputs.task.header, frame)
+        task = live_task(inputs.task, transform, limit)
+        if inputs.load is not None:
+            return task, load_from(
+                inputs.load.wrench, inputs.transform(inputs.load.header, frame))
+        return task, load_from(inputs.task.external_wrench, transform)
+
+
+def _governing(task, solution):
+    """Solution that forces and alpha are taken from, and the task wrench that alpha multiplies."""
+    if isinstance(task, TaskPolytope):
+        weakest = min(range(len(solution.solutions)), key=lambda i: (
+            solution.solutions[i].feasible, solution.solutions[i].alpha))
+        return solution.solutions[weakest], task.wrenches[weakest]
+    if isinstance(task, TaskCone):
+        reached = solution.alpha > 0.0
+        return solution, solution.wrench / solution.alpha if reached else task.axis
+    return solution, task.wrench

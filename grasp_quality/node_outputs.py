@@ -1,0 +1,91 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What the node publishes: one proved answer, or one failure, to all output topics alike.
+
+On anything but OPTIMAL alpha is 0 and the force array empty, and the wrench topics of contacts get
+a zero wrench: nothing that was published before stays in force by silence.
+"""
+
+import re
+
+from geometry_msgs.msg import WrenchStamped
+from std_msgs.msg import Float64, Header
+
+from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode
+from msg_adapters import qos
+from msg_adapters.forces import contact_frame_wrench, force_array
+
+MAX_WRENCH_TOPICS = 256
+
+
+class Outputs:
+    """Lifecycle publishers of a node; they are silent until it is active."""
+
+    def __init__(self, node):
+        self._node = node
+        self._alpha = self._publisher(Float64, '~/alpha')
+        self._quality = self._publisher(GraspQuality, '~/quality')
+        self._forces = self._publisher(ContactForceArray, '~/contact_forces')
+        self._wrenches = {}  # contact name: publisher, or None where the name makes no topic
+
+    def publish(self, quality, grasp=None, forces=(), cone_usage=()):
+        """
+        Publish an answer.
+
+        Parameters
+        ----------
+        quality : GraspQuality
+            Forces are published only with result OPTIMAL.
+        grasp : Grasp
+        forces : (k, 4) array [N, N, N, N m]
+        cone_usage : (k,) array
+
+        """
+        optimal = quality.result.code == ResultCode.OPTIMAL
+        if not optimal:
+            grasp, forces, cone_usage = None, (), ()
+        self._forces.publish(force_array(quality.header, grasp, forces, cone_usage))
+        self._quality.publish(quality)
+        self._alpha.publish(Float64(data=quality.alpha if optimal else 0.0))
+        self._publish_wrenches(
+            quality.header.stamp, dict(zip(grasp.names, forces)) if optimal else {})
+
+    def publish_failure(self, result, stamp=None, frame='', **fields):
+        """Publish a ResultCode other than OPTIMAL; fields are further ones of GraspQuality."""
+        header = Header(frame_id=frame)
+        if stamp is not None:
+            header.stamp = stamp
+        self.publish(GraspQuality(header=header, result=result, **fields))
+
+    def _publish_wrenches(self, stamp, forces):
+        for name in forces:
+            if name not in self._wrenches:
+                self._wrenches[name] = self._wrench_publisher(name)
+        for name, publisher in self._wrenches.items():
+            if publisher is not None and publisher.get_subscription_count():
+                message = contact_frame_wrench(stamp, name, *(
+                    [forces[name]] if name in forces else []))
+                publisher.publish(message)
+
+    def _wrench_publisher(self, name):
+        if not re.fullmatch('[A-Za-z_][A-Za-z0-9_]*', name) or '__' in name \
+                or len(self._wrenches) >= MAX_WRENCH_TOPICS:
+            self._node.get_logger().warning(
+                f'no topic ~/optimal_wrenches/{name}: contact names must be letters, digits and '
+                f'single underscores, and at most {MAX_WRENCH_TOPICS}; its forces are on '
+                '~/contact_forces')
+            return None
+        publisher = self._publisher(WrenchStamped, f'~/optimal_wrenches/{name}')
+        if self._node.active:
+            publisher.on_activate(None)
+        return publisher
+
+    def declare_wrenches(self, names):
+        """Create the wrench topics of names known beforehand, so that they can be discovered."""
+        for name in names:
+            self._wrenches.setdefault(name, self._wrench_publisher(name))
+
+    def _publisher(self, message_type, topic):
+        return self._node.create_lifecycle_publisher(
+            message_type, topic, qos.newest_command())

@@ -1,0 +1,172 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Parameters of the node: one table of descriptors, one frozen dataclass of checked values.
+
+A new parameter is a row of ``TABLE`` and a field of ``Settings``; a rule between parameters goes to
+``Settings.__post_init__``. Values are checked in the on-set callback and swapped in the post-set
+callback, so that a rejected set changes nothing.
+"""
+
+from dataclasses import dataclass, fields
+
+from rcl_interfaces.msg import (
+    FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult)
+from rclpy.exceptions import ParameterUninitializedException
+from rclpy.parameter import Parameter
+
+from grasp_quality.bounds import BOUNDS
+from grasp_quality.contact import ContactModel
+from grasp_quality.task import TaskWrench
+from msg_adapters.contacts import ContactDefaults
+
+SOURCES = ('pose_array', 'contact_array')
+LARGE = 1e6
+Type = Parameter.Type
+
+
+@dataclass(frozen=True)
+class Settings:
+    """
+    Checked values of all parameters; names, units and meaning are those of ``TABLE``.
+
+    Raises
+    ------
+    ValueError
+
+    """
+
+    object_frame: str = ''
+    contact_source: str = 'pose_array'
+    contact_names: tuple = ()
+    contact_fingers: tuple = ()
+    contact_model: str = 'PCWF'
+    friction_coefficient: float = 0.5
+    torsional_friction_coefficient: float = 0.005
+    max_normal_force: float = 10.0
+    force_bound: str = 'linf'
+    barrier_weight: float = 0.0
+    task_wrench: tuple = ()
+    min_contact_force: float = 0.0
+    max_contact_age: float = 0.1
+    solver_time_limit: float = 1.0
+    max_request_size: int = 4096
+    map_directions: int = 2592
+    autostart: bool = True
+
+    def __post_init__(self):
+        """Check the rules that a range cannot say."""
+        _one_of('contact_source', self.contact_source, SOURCES)
+        _one_of('contact_model', self.contact_model, [m.value for m in ContactModel])
+        _one_of('force_bound', self.force_bound, BOUNDS)
+        for name in ('max_normal_force', 'max_contact_age', 'solver_time_limit'):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f'{name} must be greater than 0, got {getattr(self, name)}')
+        if '' in self.contact_names or len(set(self.contact_names)) != len(self.contact_names):
+            raise ValueError(
+                f'contact_names must be unique and not empty, got {list(self.contact_names)}')
+        if self.contact_fingers and len(self.contact_fingers) != len(self.contact_names):
+            raise ValueError(
+                f'contact_fingers must name one finger for each of the {len(self.contact_names)} '
+                f'contact_names, got {list(self.contact_fingers)}')
+        if self.task_wrench:
+            TaskWrench(self.task_wrench)
+
+    @property
+    def contact_defaults(self):
+        """What contact messages leave open."""
+        return ContactDefaults(
+            ContactModel[self.contact_model], self.friction_coefficient,
+            self.torsional_friction_coefficient, self.max_normal_force,
+            self.contact_names, self.contact_fingers)
+
+
+def _one_of(name, value, choices):
+    if value not in choices:
+        raise ValueError(f'{name} must be one of {list(choices)}, got {value!r}')
+
+
+# name: (type, description with unit, range or None, read-only)
+TABLE = {
+    'object_frame': (Type.STRING, 'Frame of the object; empty: the frame the contacts come in',
+                     None, False),
+    'contact_source': (Type.STRING, 'Topic the contacts are taken from: pose_array '
+                       '(~/contact_poses) or contact_array (~/contacts)', None, True),
+    'contact_names': (Type.STRING_ARRAY, 'Names of the poses of a pose_array, in order; not set: '
+                      'contact_0, contact_1, ...', None, True),
+    'contact_fingers': (Type.STRING_ARRAY, 'Finger of each of contact_names, for the finger bound',
+                        None, True),
+    'contact_model': (Type.STRING, 'Contact model: FPC, PCWF or SFCE', None, False),
+    'friction_coefficient': (Type.DOUBLE, 'Coulomb friction coefficient mu [-]', (0.0, 100.0),
+                             False),
+    'torsional_friction_coefficient': (Type.DOUBLE, 'Torsional friction coefficient gamma [m]',
+                                       (0.0, 100.0), False),
+    'max_normal_force': (Type.DOUBLE, 'Largest normal force of a contact [N], > 0', (0.0, LARGE),
+                         False),
+    'force_bound': (Type.STRING, 'Bound on the normal forces: linf, l1, l2 or finger', None, False),
+    'barrier_weight': (Type.DOUBLE, 'Weight eps of the friction margin, eq. (11), in the unit of '
+                       'alpha', (0.0, LARGE), False),
+    'task_wrench': (Type.DOUBLE_ARRAY, 'Task of the live loop: fx fy fz [N] tx ty tz [N m] in the '
+                    'object frame; not set: none until one is given', None, False),
+    'min_contact_force': (Type.DOUBLE, 'Measured normal force [N] from which a contact counts as '
+                          'loaded; 0: all count, measured or not', (0.0, LARGE), False),
+    'max_contact_age': (Type.DOUBLE, 'Age [s] beyond which contacts are stale, > 0', (0.0, 3600.0),
+                        False),
+    'solver_time_limit': (Type.DOUBLE, 'Time limit of one solve [s], > 0', (0.0, 3600.0), False),
+    'max_request_size': (Type.INTEGER, 'Largest number of contacts, wrenches or directions of one '
+                         'message or request', (1, 1_000_000), False),
+    'map_directions': (Type.INTEGER, 'Directions of a wrench map that names none', (2, 1_000_000),
+                       False),
+    'autostart': (Type.BOOL, 'Configure and activate at start', None, True),
+}
+
+
+def declare(node):
+    """
+    Declare all parameters on a node and return their checked values.
+
+    Raises
+    ------
+    ValueError
+        When an override breaks a rule.
+
+    """
+    for name, (kind, description, limits, read_only) in TABLE.items():
+        descriptor = ParameterDescriptor(description=description, read_only=read_only)
+        if kind is Type.DOUBLE:
+            descriptor.floating_point_range = [
+                FloatingPointRange(from_value=limits[0], to_value=limits[1])]
+        elif kind is Type.INTEGER:
+            descriptor.integer_range = [IntegerRange(from_value=limits[0], to_value=limits[1])]
+        default = getattr(Settings, name)
+        # a list without elements has no type of its own: such a parameter starts not set
+        node.declare_parameter(name, kind if default == () else default, descriptor)
+    return Settings(**{f.name: _value(node, f.name) for f in fields(Settings)})
+
+
+def _value(node, name):
+    try:
+        value = node.get_parameter(name).value
+    except ParameterUninitializedException:
+        return getattr(Settings, name)
+    return tuple(value) if TABLE[name][0].value >= Type.BYTE_ARRAY.value else value
+
+
+def changed(settings, parameters):
+    """Return settings with a list of rclpy Parameters applied; those of others are passed over."""
+    changes = {}
+    for parameter in parameters:
+        if parameter.name in TABLE:
+            value = parameter.value
+            is_array = TABLE[parameter.name][0].value >= Type.BYTE_ARRAY.value
+            changes[parameter.name] = tuple(value or ()) if is_array else value
+    return Settings(**{**{f.name: getattr(settings, f.name) for f in fields(Settings)}, **changes})
+
+
+def check(settings, parameters):
+    """Answer an on-set callback: would these parameters be valid together?"""
+    try:
+        changed(settings, parameters)
+    except (ValueError, TypeError) as exc:
+        return SetParametersResult(successful=False, reason=str(exc))
+    return SetParametersResult(successful=True)

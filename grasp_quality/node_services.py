@@ -1,0 +1,161 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The services of the node: each reads a request, asks the core once, and fills the response.
+
+``Services`` gives every handler the same boundary: whatever goes wrong becomes a fresh response with
+a result code, so that a client always gets an answer and never half of one.
+"""
+
+import math
+import time
+
+from std_msgs.msg import Header
+
+from grasp_quality.directions import force_grid
+from grasp_quality.grasp import Grasp
+from grasp_quality.holding import minimum_forces
+from grasp_quality.measures import evaluate, wrench_map
+from grasp_quality.solution import Status
+from grasp_quality_msgs import srv
+from msg_adapters.errors import InvalidMessageError, NoContactsError, NotActiveError
+from msg_adapters.forces import force_array
+from msg_adapters.results import error_result, status_result
+from msg_adapters.stamps import to_duration
+from msg_adapters.tasks import (
+    cone_task, live_task, load_from, polytope_task, wrench_rows, wrench_task)
+from msg_adapters.wrenches import to_wrench
+
+SURFACE_SAMPLES = 32
+
+
+class Services:
+    """Handlers of all services; ``is_active()`` tells the lifecycle state."""
+
+    def __init__(self, node, inputs, settings, is_active):
+        self._inputs = inputs
+        self._settings = settings
+        self._is_active = is_active
+        self._logger = node.get_logger()
+        for kind, handler in (
+                (srv.EvaluateTaskWrench, self.evaluate_task_wrench),
+                (srv.EvaluateTaskCone, self.evaluate_task_cone),
+                (srv.EvaluateTaskPolytope, self.evaluate_task_polytope),
+                (srv.MinimumForces, self.minimum_forces),
+                (srv.WrenchMap, self.wrench_map),
+                (srv.SetTask, self.set_task)):
+            node.create_service(kind, f'~/{handler.__name__}', self._bounded(handler))
+
+    def _bounded(self, handler):
+        def answer(request, response):
+            started = time.perf_counter()
+            try:
+                if not self._is_active():
+                    raise NotActiveError('the node is not active: configure and activate it, as '
+                                         'with ros2 lifecycle set')
+                handler(request, response)
+            except Exception as exc:
+                response = type(response)(result=error_result(exc))
+                self._logger.warning(
+                    f'{handler.__name__}: {response.result.message}', throttle_duration_sec=1.0)
+            response.solve_time = to_duration(time.perf_counter() - started)
+            return response
+        return answer
+
+    def _question(self, request):
+        """Grasp, header of the answer, transform of the request's wrenches, load, time limit."""
+        if request.contacts.contacts:
+            contacts, frame = self._inputs.read_contacts(request.contacts)
+            stamp = request.contacts.header.stamp
+        else:
+            scene = self._inputs.scene()
+            contacts, frame, stamp = scene.contacts, scene.frame, scene.stamp
+        if not contacts:
+            raise NoContactsError('the request holds no contacts and none were received')
+        transform = self._inputs.transform(request.header, frame)
+        grasp = Grasp(contacts, self._settings().force_bound)
+        load = load_from(request.external_wrench, transform)
+        return grasp, Header(stamp=stamp, frame_id=frame), transform, load
+
+    def _evaluate(self, grasp, task, load):
+        settings = self._settings()
+        return evaluate(grasp, task, load, settings.barrier_weight, settings.solver_time_limit)
+
+    def evaluate_task_wrench(self, request, response):
+        """Answer the largest alpha of one wrench, and its forces."""
+        grasp, header, transform, load = self._question(request)
+        solution = self._evaluate(grasp, wrench_task(request.task_wrench, transform), load)
+        response.result = status_result(solution.status)
+        response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
+        response.alpha_lower, response.holdable = solution.alpha_lower, solution.holdable
+        response.forces = force_array(header, grasp, solution.forces, solution.cone_usage)
+        response.limiting_contact = solution.limiting_contact
+        response.dalpha_dexternal_wrench = to_wrench(solution.dalpha_dexternal_wrench)
+
+    def evaluate_task_cone(self, request, response):
+        """Answer the largest alpha_z inside a cone of wrenches."""
+        grasp, header, transform, load = self._question(request)
+        task = cone_task(request, transform, SURFACE_SAMPLES)
+        solution = self._evaluate(grasp, task, load)
+        response.result = status_result(solution.status)
+        if solution.feasible:
+            response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
+            response.alpha_axis = solution.alpha_axis
+            response.alpha_worst = solution.alpha_worst
+        response.optimal_wrench = to_wrench(solution.wrench)
+        response.forces = force_array(header, grasp, solution.forces, solution.cone_usage)
+
+    def evaluate_task_polytope(self, request, response):
+        """Answer alpha of every wrench by itself, and what they guarantee together."""
+        grasp, header, transform, load = self._question(request)
+        task = polytope_task(request, transform, self._settings().max_request_size)
+        answer = self._evaluate(grasp, task, load)
+        response.result = status_result(answer.status)
+        if answer.status is Status.INFEASIBLE:
+            return
+        response.quality, response.alpha_min = answer.quality, answer.alpha_min
+        response.alphas = answer.alphas.tolist()
+        response.parallelotope_scale = answer.parallelotope_scale or 0.0
+        response.forces = [force_array(header, grasp, s.forces, s.cone_usage)
+                           for s in answer.solutions]
+
+    def minimum_forces(self, request, response):
+        """Answer the smallest forces that balance the external wrench."""
+        grasp, header, _, load = self._question(request)
+        answer = minimum_forces(grasp, load, self._settings().solver_time_limit)
+        response.result = status_result(answer.status, (
+            f'no forces within cones and caps balance the external wrench: {answer.peak:.4g} '
+            f'times the caps would be needed, {answer.violation:.4g} N remain unbalanced'))
+        response.peak = answer.peak if math.isfinite(answer.peak) else 0.0
+        response.forces = force_array(header, grasp, answer.forces, answer.cone_usage)
+
+    def wrench_map(self, request, response):
+        """Answer alpha for many directions."""
+        grasp, _, transform, load = self._question(request)
+        settings = self._settings()
+        if request.directions:
+            directions = wrench_rows(
+                request.directions, transform, settings.max_request_size, 'directions')
+        else:
+            directions = self._grid(request.resolution, settings)
+        answer = wrench_map(grasp, directions, load, time_limit_s=settings.solver_time_limit)
+        response.result = status_result(
+            Status.OPTIMAL if answer.feasible.all() else Status.INFEASIBLE)
+        if answer.feasible.all():
+            response.directions = [to_wrench(d) for d in answer.directions]
+            response.alphas = answer.alpha.tolist()
+
+    def _grid(self, resolution, settings):
+        steps = resolution or max(1, round(math.sqrt(settings.map_directions / 2)))
+        if 2 * steps ** 2 > settings.max_request_size:
+            raise InvalidMessageError(
+                f'resolution must give at most {settings.max_request_size} directions (parameter '
+                f'max_request_size), got {steps}, which gives {2 * steps ** 2}')
+        return force_grid(steps)
+
+    def set_task(self, request, response):
+        """Set task and load of the live loop, once they are known to be valid."""
+        live_task(request, None, self._settings().max_request_size)
+        load_from(request.external_wrench, None)
+        self._inputs.task, self._inputs.load = request, None
+        response.result = status_result(Status.OPTIMAL)

@@ -1,0 +1,25 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+QoS profiles by what they are for.
+
+Nothing is ever latched: effort controllers hold their last command for ever, so an old force must
+not be replayed to a late joiner.
+"""
+
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+
+def newest_sample():
+    """Sensor streams: the newest sample or none, never a queue, never a retry."""
+    return _depth_one(ReliabilityPolicy.BEST_EFFORT)
+
+
+def newest_command():
+    """Tasks, loads and all outputs: reliable, but only the newest, and never to late joiners."""
+    return _depth_one(ReliabilityPolicy.RELIABLE)
+
+
+def _depth_one(reliability):
+    return QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=1, reliability=reliability,
+                      durability=DurabilityPolicy.VOLATILE)

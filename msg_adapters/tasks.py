@@ -1,0 +1,81 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""Tasks and loads: service requests and parameters to core tasks, in the object frame."""
+
+import numpy as np
+
+from grasp_quality.task import TaskCone, TaskPolytope, TaskWrench
+from grasp_quality_msgs.srv import SetTask
+from msg_adapters.errors import InvalidMessageError
+from msg_adapters.wrenches import wrench_array
+
+
+def load_from(message, transform, name='external_wrench'):
+    """Read an external wrench (6,) [N, N m] in the object frame; all zero is no load."""
+    return _moved(wrench_array(message, name), transform)
+
+
+def wrench_task(message, transform, name='task_wrench'):
+    """Read a geometry_msgs/Wrench as a TaskWrench; it must not be zero."""
+    return TaskWrench(_nonzero(wrench_array(message, name), transform, name))
+
+
+def cone_task(message, transform, surface_samples):
+    """Read axis, lateral_x, lateral_y and half_angle of a request as a TaskCone."""
+    return TaskCone(
+        _nonzero(wrench_array(message.axis, 'axis'), transform, 'axis'),
+        _moved(wrench_array(message.lateral_x, 'lateral_x'), transform),
+        _moved(wrench_array(message.lateral_y, 'lateral_y'), transform),
+        float(message.half_angle), surface_samples)
+
+
+def polytope_task(message, transform, limit, parallelotope=True):
+    """Read task_wrenches and weights of a request as a TaskPolytope of at most limit wrenches."""
+    wrenches = wrench_rows(message.task_wrenches, transform, limit, 'task_wrenches')
+    if not len(wrenches):
+        raise InvalidMessageError('task_wrenches must hold at least one wrench, got none')
+    weights = [float(w) for w in message.weights]
+    if weights and len(weights) != len(wrenches):
+        raise InvalidMessageError(
+            f'weights must be empty or hold one number for each of the {len(wrenches)} '
+            f'task_wrenches, got {len(weights)}')
+    return TaskPolytope(wrenches, weights or None, parallelotope)
+
+
+def wrench_rows(messages, transform, limit, name):
+    """Read a list of wrenches (n, 6), none of them zero, n at most limit."""
+    if len(messages) > limit:
+        raise InvalidMessageError(
+            f'{name} must hold at most {limit} wrenches (parameter max_request_size), '
+            f'got {len(messages)}')
+    return np.array([
+        _nonzero(wrench_array(message, f'{name}[{i}]'), transform, f'{name}[{i}]')
+        for i, message in enumerate(messages)]).reshape(-1, 6)
+
+
+def live_task(request, transform, limit):
+    """
+    Read a SetTask request for the live loop.
+
+    The loop publishes neither the cone's surface nor the parallelotope, so both are left out.
+
+    """
+    if request.kind == SetTask.Request.WRENCH:
+        return wrench_task(request.task_wrench, transform)
+    if request.kind == SetTask.Request.CONE:
+        return cone_task(request, transform, surface_samples=0)
+    if request.kind == SetTask.Request.POLYTOPE:
+        return polytope_task(request, transform, limit, parallelotope=False)
+    raise InvalidMessageError(
+        f'kind must be 1 (WRENCH), 2 (CONE) or 3 (POLYTOPE), got {request.kind}')
+
+
+def _moved(wrench, transform):
+    return wrench if transform is None else transform.wrench(wrench)
+
+
+def _nonzero(wrench, transform, name):
+    if not wrench.any():
+        raise InvalidMessageError(
+            f'{name} must not be zero: a zero wrench has no direction that alpha could scale')
+    return _moved(wrench, transform)
