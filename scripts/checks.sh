@@ -11,7 +11,9 @@ right_python() { # right_python <interpreter>: is it there, and 3.11 to 3.13?
 choose_python() { # print $PYTHON, or the first interpreter with a right version
     local candidate
     for candidate in ${PYTHON:-python3 python3.13 python3.12 python3.11}; do
-        right_python "$candidate" && { command -v "$candidate"; return; }
+        # in a venv the interpreter below it: the venv may be the one that is made anew
+        right_python "$candidate" &&
+            { "$candidate" -c 'import sys; print(sys._base_executable)'; return; }
     done
     die "Python 3.11, 3.12 or 3.13 is needed, but ${PYTHON:-python3} is" \
         "$("${PYTHON:-python3}" --version 2>/dev/null || echo 'missing');" \
