@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from builtin_interfaces.msg import Time
-from rclpy.time import Time as RclpyTime
 
 from grasp_quality.contact import Contact
 from grasp_quality_msgs.srv import SetTask
@@ -154,8 +153,7 @@ class Inputs:
 
     def transform(self, header, frame):
         """Transform from a header's frame to the object frame; None for the identity."""
-        return transform_to(frame, header.frame_id, self.tf_buffer,
-                            RclpyTime.from_msg(header.stamp))
+        return transform_to(frame, header.frame_id, self.tf_buffer, header.stamp)
 
     def _measured(self, contacts, frame):
         """Fresh measured force (4,) of each contact, or None."""

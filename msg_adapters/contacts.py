@@ -7,13 +7,13 @@ Zero in a field of a ContactArray means the node's default; a PoseArray takes ev
 poses from the defaults. +z of each pose is the inward normal.
 """
 
-import math
 from dataclasses import dataclass
 
 from grasp_quality.contact import Contact, ContactModel
 from grasp_quality.exceptions import InvalidContactError
 from grasp_quality_msgs.msg import Contact as ContactMsg
 from msg_adapters.errors import InvalidMessageError
+from msg_adapters.numbers import SMALLEST, checked_numbers
 from msg_adapters.poses import pose_arrays
 
 MODELS = {ContactMsg.MODEL_FPC: ContactModel.FPC, ContactMsg.MODEL_PCWF: ContactModel.PCWF,
@@ -126,8 +126,8 @@ def _model(code, defaults, field):
 
 
 def _number(item, name, default, field):
-    value = float(getattr(item, name))
-    if not (math.isfinite(value) and value >= 0.0):
+    value, = checked_numbers((getattr(item, name),), f'{field}.{name}')
+    if value != 0.0 and value < SMALLEST:
         raise InvalidMessageError(
-            f'{field}.{name} must be finite and >= 0 (0 takes the node default), got {value}')
+            f'{field}.{name} must be at least {SMALLEST:g}, or 0 for the node default, got {value}')
     return value or default

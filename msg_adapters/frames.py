@@ -11,9 +11,11 @@ frame; contacts must name their frame, unless the object_frame parameter does.
 from dataclasses import dataclass, field
 
 import numpy as np
+from rclpy.time import Time
 
 from grasp_quality.wrench import transform
 from msg_adapters.errors import InvalidMessageError, TransformError
+from msg_adapters.numbers import checked_numbers
 from msg_adapters.poses import rotation_matrix
 
 
@@ -64,8 +66,8 @@ def transform_to(target, source, buffer, stamp):
         Frame names; an empty source means the target itself.
     buffer : tf2_ros.Buffer or None
         None where tf2 is not installed.
-    stamp : rclpy.time.Time
-        Time of the message; zero asks for the newest.
+    stamp : builtin_interfaces.msg.Time
+        Of the message; zero asks for the newest.
 
     Returns
     -------
@@ -84,9 +86,9 @@ def transform_to(target, source, buffer, stamp):
             f'frame {source!r} is not the object frame {target!r}, and tf2 is not installed here: '
             f'send the message in {target!r}, or install tf2_ros')
     try:
-        found = buffer.lookup_transform(target, source, stamp).transform
+        found = buffer.lookup_transform(target, source, Time.from_msg(stamp)).transform
+        t = found.translation
+        return Transform(rotation_matrix(found.rotation, 'its rotation'),
+                         np.array(checked_numbers((t.x, t.y, t.z), 'its translation')))
     except Exception as exc:  # the exceptions of tf2 have no common base in Python
         raise TransformError(f'no transform from {source!r} to {target!r}: {exc}') from exc
-    t = found.translation
-    return Transform(rotation_matrix(found.rotation, 'transform.rotation'),
-                     np.array([float(t.x), float(t.y), float(t.z)]))

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from msg_adapters.errors import InvalidMessageError
+from msg_adapters.numbers import checked_numbers
 
 QUATERNION_TOLERANCE = 1e-3  # of the norm, before it is made exact
 
@@ -29,14 +30,12 @@ def pose_arrays(pose, name):
     Raises
     ------
     InvalidMessageError
-        When a number is not finite or the quaternion does not have norm one.
+        When a number is not finite or too large, or the quaternion does not have norm one.
 
     """
     p = pose.position
-    position = (float(p.x), float(p.y), float(p.z))
-    if not all(map(math.isfinite, position)):
-        raise InvalidMessageError(f'{name}.position must be finite, got {position}')
-    return np.array(position), rotation_matrix(pose.orientation, f'{name}.orientation')
+    position = np.array(checked_numbers((p.x, p.y, p.z), f'{name}.position'))
+    return position, rotation_matrix(pose.orientation, f'{name}.orientation')
 
 
 def rotation_matrix(quaternion, name):

@@ -7,6 +7,7 @@ import numpy as np
 from grasp_quality.task import TaskCone, TaskPolytope, TaskWrench
 from grasp_quality_msgs.srv import SetTask
 from msg_adapters.errors import InvalidMessageError
+from msg_adapters.numbers import SMALLEST, checked_numbers
 from msg_adapters.wrenches import wrench_array
 
 
@@ -34,7 +35,7 @@ def polytope_task(message, transform, limit, parallelotope=True):
     wrenches = wrench_rows(message.task_wrenches, transform, limit, 'task_wrenches')
     if not len(wrenches):
         raise InvalidMessageError('task_wrenches must hold at least one wrench, got none')
-    weights = [float(w) for w in message.weights]
+    weights = checked_numbers(message.weights, 'weights')
     if weights and len(weights) != len(wrenches):
         raise InvalidMessageError(
             f'weights must be empty or hold one number for each of the {len(wrenches)} '
@@ -75,7 +76,8 @@ def _moved(wrench, transform):
 
 
 def _nonzero(wrench, transform, name):
-    if not wrench.any():
+    if not np.abs(wrench).max() >= SMALLEST:
         raise InvalidMessageError(
-            f'{name} must not be zero: a zero wrench has no direction that alpha could scale')
+            f'{name} must not be zero, or smaller than {SMALLEST:g}: it has no direction that alpha '
+            'could scale')
     return _moved(wrench, transform)

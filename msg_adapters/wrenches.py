@@ -2,12 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wrenches, points and vectors: message parts to and from arrays, force before torque, SI."""
 
-import math
-
 import numpy as np
 from geometry_msgs.msg import Point, Vector3, Wrench
 
-from msg_adapters.errors import InvalidMessageError
+from msg_adapters.numbers import checked_numbers
 
 
 def wrench_array(message, name):
@@ -27,14 +25,12 @@ def wrench_array(message, name):
     Raises
     ------
     InvalidMessageError
-        When a component is not finite.
+        When a component is not finite, or too large.
 
     """
     force, torque = message.force, message.torque
-    values = [float(v) for v in (force.x, force.y, force.z, torque.x, torque.y, torque.z)]
-    if not all(map(math.isfinite, values)):
-        raise InvalidMessageError(f'{name} must be finite, got [fx fy fz tx ty tz] = {values}')
-    return np.array(values)
+    return np.array(checked_numbers(
+        (force.x, force.y, force.z, torque.x, torque.y, torque.z), name))
 
 
 def to_wrench(array):
