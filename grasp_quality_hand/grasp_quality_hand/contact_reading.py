@@ -60,15 +60,7 @@ def contact_points(hand, data):
     """
     Return every contact of a finger with the object, twins merged.
 
-    Parameters
-    ----------
-    hand : HandModel
-    data : mujoco.MjData
-
-    Returns
-    -------
-    list of MeasuredContact
-        In the order of the fingers.
+    The MeasuredContacts are in the order of the fingers.
 
     """
     points = sorted(_read_points(hand, data), key=lambda point: point.finger)

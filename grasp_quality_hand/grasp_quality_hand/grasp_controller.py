@@ -2,13 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The controller that opens and closes the hand and squeezes what it holds."""
 
-import enum
-
-import mujoco
-import numpy as np
-
 from grasp_quality_hand.hand_model import TIP_RADIUS
 from grasp_quality_hand.kinematics import inverse_kinematics, tip_positions
+import mujoco
+import numpy as np
 
 STIFFNESS = 10.0              # of the joints [N m/rad]
 JOINT_DAMPING = 0.4           # [N m s/rad]
@@ -18,21 +15,13 @@ SQUEEZE_TIME = 0.4            # from touch to the full squeeze [s]
 NO_TORQUE = np.zeros(3)
 
 
-class Phase(enum.Enum):
-    """What the controller is doing."""
-
-    OPEN = 'open'
-    APPROACH = 'approach'
-    SQUEEZE = 'squeeze'
-
-
 class GraspController:
     """
     Joint torques: stiffness about a posture, plus J^T f of the squeeze, plus gravity.
 
-    The posture is the open one until close is called, then moves to where the fingertips touch.
-    The squeeze is a balanced set of fingertip forces, so it changes no motion of the object; the
-    object's weight is added to it in equal shares.
+    The posture is the open one until close_hand is called; then it moves to where the fingertips
+    touch. The squeeze is a balanced set of fingertip forces, so that it does not move the object;
+    the object's weight is added to it in equal shares.
 
     """
 
@@ -50,20 +39,14 @@ class GraspController:
         """Return where the centres of the fingertips stand off the object by clearance."""
         return touch - (TIP_RADIUS + clearance) * self._object.inward_normals
 
-    def open(self):
+    def open_hand(self):
         """Go to the open posture."""
         self._closed_at = None
 
-    def close(self, time):
+    def close_hand(self, time):
         """Begin to close at the simulated time, in seconds."""
         if self._closed_at is None:
             self._closed_at = time
-
-    def phase(self, time):
-        """Return the phase at the simulated time."""
-        if self._closed_at is None:
-            return Phase.OPEN
-        return Phase.APPROACH if time - self._closed_at < APPROACH_TIME else Phase.SQUEEZE
 
     def squeeze_share(self, time):
         """Return the share of the full squeeze at the simulated time, in [0, 1]."""

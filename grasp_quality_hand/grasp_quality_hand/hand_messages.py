@@ -3,13 +3,12 @@
 """The simulated hand's state as ROS messages; every stamp is given by the caller."""
 
 from geometry_msgs.msg import Pose, PoseArray, PoseStamped, Vector3Stamped, WrenchStamped
+from grasp_quality_hand.grasp_objects import FRICTION, TORSIONAL_FRICTION
+from grasp_quality_hand.hand_model import FINGERS
 from grasp_quality_msgs.msg import Contact, ContactArray
 import numpy as np
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
-
-from grasp_quality_hand.grasp_objects import FRICTION, TORSIONAL_FRICTION
-from grasp_quality_hand.hand_model import FINGERS
 
 OBJECT_FRAME = 'object'
 BASE_FRAME = 'base'          # of the hand: z up, along the fingers
@@ -75,7 +74,7 @@ def up_vector(simulation, stamp):
 
 
 def quaternion(R):
-    """Return the unit quaternion (x, y, z, w) of the rotation R, shape (3, 3)."""
+    """Return the unit quaternion, as x, y, z, w, of a rotation R with shape (3, 3)."""
     # row and column i of 4 q q^T hold q_i times q: the row with the largest diagonal is the safest
     x, y, z = R
     outer = np.array([

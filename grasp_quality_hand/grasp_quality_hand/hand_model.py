@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 import xml.etree.ElementTree as ElementTree
 
+from grasp_quality_hand.fetch_dclaw import dclaw_directory, DClawUnavailable, is_complete, URDF
+from grasp_quality_hand.grasp_objects import FRICTION, TORSIONAL_FRICTION
 import mujoco
 import numpy as np
 
-from grasp_quality_hand.fetch_dclaw import dclaw_directory, DClawUnavailable, is_complete, URDF
-from grasp_quality_hand.grasp_objects import FRICTION, TORSIONAL_FRICTION
-
 FINGERS = ('finger_1', 'finger_2', 'finger_3')
-TIP_CENTRE = np.array([0.073, 0.0, 0.0])    # of the ball at the end of the last link, its frame [m]
+TIP_CENTRE = np.array([0.073, 0.0, 0.0])    # ball at the end, in the last link's frame [m]
 TIP_RADIUS = 0.010                          # [m]
 HOLDER = 'holder'                           # the weld that holds the object before the grasp
 TIMESTEP = 0.001                            # [s]

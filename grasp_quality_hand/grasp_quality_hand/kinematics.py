@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Forward, differential and inverse kinematics of the fingertips."""
 
+from grasp_quality_hand.hand_model import TIP_CENTRE
 import mujoco
 import numpy as np
-
-from grasp_quality_hand.hand_model import TIP_CENTRE
 
 OUTWARD_THEN_INWARD = np.deg2rad([0.0, 35.0, 70.0])    # size of each joint's bend at the start
 DAMPING = 1e-3                                         # of the least squares [m/rad]
@@ -30,9 +29,11 @@ def tip_jacobian(hand, data, finger, point):
     Parameters
     ----------
     hand : HandModel
+        The hand.
     data : mujoco.MjData
         After kinematics and mj_comPos.
     finger : int
+        Index of the finger.
     point : array, shape (3,)
         World frame [m].
 
@@ -58,6 +59,7 @@ def inverse_kinematics(hand, targets):
     Parameters
     ----------
     hand : HandModel
+        The hand.
     targets : array, shape (3, 3)
         World frame [m].
 

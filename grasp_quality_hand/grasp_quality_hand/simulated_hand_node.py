@@ -7,6 +7,11 @@ import sys
 import time
 
 from geometry_msgs.msg import PoseArray, PoseStamped, Vector3Stamped, WrenchStamped
+from grasp_quality_hand import hand_messages
+from grasp_quality_hand.fetch_dclaw import DClawUnavailable
+from grasp_quality_hand.grasp_objects import OBJECTS
+from grasp_quality_hand.hand_model import FINGERS
+from grasp_quality_hand.simulation import HandSimulation, SQUEEZE_FORCE
 from grasp_quality_msgs.msg import ContactArray
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 import rclpy
@@ -17,12 +22,6 @@ from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
-
-from grasp_quality_hand import hand_messages
-from grasp_quality_hand.fetch_dclaw import DClawUnavailable
-from grasp_quality_hand.grasp_objects import OBJECTS
-from grasp_quality_hand.hand_model import FINGERS
-from grasp_quality_hand.simulation import HandSimulation, SQUEEZE_FORCE
 
 RATE_HZ = 100.0
 LONGEST_STRIDE_S = 0.05      # a machine that falls behind loses simulated time, not its rate
@@ -80,12 +79,12 @@ class SimulatedHandNode(Node):
 
     def _on_close(self, request, response):
         """Begin to close the hand."""
-        self._simulation.close()
+        self._simulation.close_hand()
         return self._answer(response, f'closing on the {self._simulation.object.name}')
 
     def _on_open(self, request, response):
         """Open the hand and put the object back where it was handed over."""
-        self._simulation.open()
+        self._simulation.open_hand()
         return self._answer(response, 'opening')
 
     def _on_load_object(self, request, response):

@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulated hand with an object in it."""
 
-import mujoco
-import numpy as np
-
 from grasp_quality_hand.contact_reading import contact_points, finger_contacts
 from grasp_quality_hand.grasp_controller import GraspController
 from grasp_quality_hand.grasp_objects import OBJECTS
 from grasp_quality_hand.hand_model import build_hand_model, TIMESTEP
+import mujoco
+import numpy as np
 
 SQUEEZE_FORCE = 5.0           # largest normal force of the squeeze [N]
 
@@ -24,8 +23,8 @@ class HandSimulation:
 
     def __init__(self, object_name='cube', squeeze_force=SQUEEZE_FORCE, dclaw=None):
         if object_name not in OBJECTS:
-            raise ValueError(f"object {object_name!r} is not known: it must be one of "
-                             f"{', '.join(OBJECTS)}")
+            raise ValueError(f'object {object_name!r} is not known: it must be one of '
+                             f'{", ".join(OBJECTS)}')
         self.object = OBJECTS[object_name]
         self.hand = build_hand_model(self.object, dclaw)
         self.data = mujoco.MjData(self.hand.mujoco)
@@ -43,16 +42,16 @@ class HandSimulation:
         """Return whether the fingers alone hold the object."""
         return not self.data.eq_active[self.hand.holder]
 
-    def close(self):
+    def close_hand(self):
         """Close the hand on the object and let go of the holder when it is squeezed."""
-        self.controller.close(self.time)
+        self.controller.close_hand(self.time)
 
-    def open(self):
+    def open_hand(self):
         """Put the object back into the holder and open the hand."""
         address = self.hand.object_qpos
         self.data.qpos[address:address + 7] = self.hand.mujoco.qpos0[address:address + 7]
         self.data.eq_active[self.hand.holder] = 1
-        self.controller.open()
+        self.controller.open_hand()
 
     def advance(self, duration):
         """Simulate whole time steps for about a duration in seconds; return their sum."""

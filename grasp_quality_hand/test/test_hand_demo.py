@@ -1,0 +1,91 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""The demo as its user runs it: a process that ends by itself and leaves none behind."""
+
+import os
+from pathlib import Path
+import signal
+import subprocess
+import time
+import uuid
+
+from grasp_quality_hand.demo_processes import executable
+import pytest
+
+DEADLINE = 60.0              # for a run with one object [s]
+PNG = b'\x89PNG\r\n\x1a\n'
+
+
+class DemoRun:
+    """A run of the demo whose processes can be told from all others by a mark."""
+
+    def __init__(self, output, *flags):
+        self.output = output
+        self._mark = f'DEMO_MARK={uuid.uuid4()}'
+        name, value = self._mark.split('=')
+        command = [executable('grasp_quality_hand', 'demo'), '--output', output, *flags]
+        self.process = subprocess.Popen(
+            command, env={**os.environ, name: value}, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, text=True, start_new_session=True)
+
+    def processes(self):
+        """Return the ids of all processes of this run."""
+        found = []
+        for path in Path('/proc').glob('[0-9]*/environ'):
+            try:
+                environment = path.read_bytes()
+            except OSError:
+                continue    # not ours to read, or gone
+            if self._mark.encode() in environment.split(b'\0'):
+                found.append(int(path.parent.name))
+        return found
+
+    def wait_for_line(self, text):
+        """Read what the demo prints until a line holds the text."""
+        for line in self.process.stdout:
+            if text in line:
+                return
+        raise AssertionError(f'the demo ended without saying {text!r}')
+
+    def end(self):
+        """Return exit code and output, once the demo has ended by itself."""
+        output, _ = self.process.communicate(timeout=DEADLINE)
+        return self.process.returncode, output
+
+
+@pytest.fixture
+def demo(tmp_path):
+    """Return a function that starts the demo; whatever is left at the end is killed."""
+    runs = []
+
+    def start(*flags):
+        runs.append(DemoRun(tmp_path / 'demo', *flags))
+        return runs[-1]
+
+    yield start
+    for run in runs:
+        for process in run.processes():
+            os.kill(process, signal.SIGKILL)
+
+
+def test_demo_prints_and_draws_and_leaves_nothing_behind(demo):
+    run = demo('--objects', 'cube')
+    code, output = run.end()
+    assert code == 0, output
+    for heading in ('Measured contacts', 'Task wrench', 'Task cone', 'Task polytope',
+                    'Contact forces', 'Force map'):
+        assert heading in output
+    for picture in ('cube_grasp.png', 'cube_force_map.png'):
+        assert (run.output / picture).read_bytes().startswith(PNG)
+    assert run.processes() == []
+
+
+def test_ctrl_c_ends_everything(demo):
+    run = demo('--keep')
+    run.wait_for_line('starting')
+    time.sleep(1.0)
+    assert len(run.processes()) == 3
+    run.process.send_signal(signal.SIGINT)
+    code, output = run.end()
+    assert code in (0, 130) and 'Traceback' not in output
+    assert run.processes() == []

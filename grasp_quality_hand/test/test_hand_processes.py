@@ -1,0 +1,83 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""What must hold of the demo's child processes and their ROS domain."""
+
+import os
+import signal
+import sys
+import time
+
+from grasp_quality_hand import demo_processes
+from grasp_quality_hand.demo_processes import ChildProcess, claim_domain, DemoFailure
+import pytest
+
+SLEEP = 'import time; print("ready", flush=True); time.sleep(60)'
+HEED = 'import signal; signal.signal(signal.SIGINT, signal.default_int_handler); '
+
+
+@pytest.fixture
+def environment(monkeypatch):
+    """Put the environment back afterwards."""
+    for name in demo_processes.discovery_environment(0):
+        monkeypatch.setenv(name, '0')
+
+
+@pytest.fixture
+def child(tmp_path):
+    """Return a function that starts Python code and waits until it has printed something."""
+    children = []
+
+    def start(code):
+        log = tmp_path / 'log'
+        children.append(ChildProcess('the sleeper', [sys.executable, '-c', code], log))
+        end = time.monotonic() + 20.0
+        while not log.read_text() and time.monotonic() < end:
+            time.sleep(0.01)
+        return children[-1]
+
+    yield start
+    for each in children:
+        each.end()
+
+
+def test_no_two_runs_share_a_domain(environment):
+    claims, domains = [], []
+    for _ in range(3):
+        claims.append(claim_domain())
+        domains.append(os.environ['ROS_DOMAIN_ID'])
+    for claim in claims:
+        claim.close()
+    assert len(set(domains)) == len(claims)
+
+
+def test_when_no_domain_is_free_it_says_so(environment, monkeypatch):
+    monkeypatch.setattr(demo_processes, 'DOMAINS', range(100, 101))
+    claim = claim_domain()
+    with pytest.raises(DemoFailure, match='no free ROS domain'):
+        claim_domain()
+    claim.close()
+
+
+def test_a_child_is_ended_gently(child):
+    assert child(HEED + SLEEP).end() == -signal.SIGINT
+
+
+def test_a_stubborn_child_is_ended_too(child, monkeypatch):
+    monkeypatch.setattr(demo_processes, 'ENDING', tuple(
+        (number, 0.2) for number, _ in demo_processes.ENDING[:2]) + demo_processes.ENDING[2:])
+    ignore = ('import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); '
+              'signal.signal(signal.SIGTERM, signal.SIG_IGN); ')
+    assert child(ignore + SLEEP).end() == -signal.SIGKILL
+
+
+def test_a_child_that_ended_is_reported_with_its_last_words(child):
+    dead = child('import sys; print("the reason", flush=True); sys.exit(3)')
+    dead.end()
+    with pytest.raises(DemoFailure, match='exit code') as failure:
+        dead.check()
+    assert 'the reason' in str(failure.value)
+
+
+def test_a_missing_package_is_named():
+    with pytest.raises(DemoFailure, match='no_such_package'):
+        demo_processes.executable('no_such_package', 'program')
