@@ -52,8 +52,9 @@ def _contacts(grasp, slip_margins):
         yield (f'  {finger:<10} {_vector(1e3 * position, 7, 1)}    {_vector(R[:, 2], 7, 3)}'
                f'  {force[2]:12.2f}      {margin:11.2f}')
     total = grasp.forces_in_object_frame.sum(axis=0)
-    yield (f'  sum of the forces {_vector(total, 7, 3)} N, object weight '
-           f'{_vector(-grasp.weight, 7, 3)} N: balanced to {100 * grasp.imbalance:.2g} %')
+    yield f'  sum          {_vector(total, 7, 3)} N'
+    yield (f'  weight       {_vector(-grasp.weight, 7, 3)} N, balanced by the sum to '
+           f'{100 * grasp.imbalance:.2g} %')
 
 
 def _abilities(weight, answers):
@@ -78,25 +79,26 @@ def _cone(answer):
     """Yield the task cone."""
     response = answer.response
     yield (f'Task cone: lift, and up to {np.rad2deg(TILT):.0f} degrees aside of it '
-           f'(alpha in object weights); {_times(answer)}')
-    yield (f'  best wrench in the cone alpha_z {response.alpha:.4f}; along the bare axis '
-           f'{response.alpha_axis:.4f}; worst on its surface {response.alpha_worst:.4f}')
+           '(alpha in object weights)')
+    yield (f'  best wrench in it {response.alpha:.4f}; along its axis {response.alpha_axis:.4f}; '
+           f'worst on its surface {response.alpha_worst:.4f}')
+    yield _times(answer)
 
 
 def _polytope(answer):
     """Yield the task polytope."""
     response = answer.response
     alphas = ', '.join(f'{alpha:.4f}' for alpha in response.alphas)
-    yield (f'Task polytope: the weight, and {SIDEWAYS:g} of it to each of four sides; '
-           f'{_times(answer)}')
+    yield f'Task polytope: the weight, and {SIDEWAYS:g} of it to each of four sides'
     yield (f'  alphas {alphas}; quality {response.quality:.4f}; smallest {response.alpha_min:.4f}')
     yield ('  sums of these wrenches, each up to its alpha, are all held after scaling by '
            f'{response.parallelotope_scale:.4f}')
+    yield _times(answer)
 
 
 def _times(answer):
     """Return the times of an answer as text."""
-    return (f'solved in {1e3 * answer.solve_time:.1f} ms, '
+    return (f'  solved in {1e3 * answer.solve_time:.1f} ms, '
             f'round trip {1e3 * answer.round_trip:.1f} ms')
 
 
