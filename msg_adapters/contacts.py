@@ -13,7 +13,7 @@ from grasp_quality.contact import Contact, ContactModel
 from grasp_quality.exceptions import InvalidContactError
 from grasp_quality_msgs.msg import Contact as ContactMsg
 from msg_adapters.errors import InvalidMessageError
-from msg_adapters.numbers import SMALLEST, checked_numbers
+from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.poses import pose_arrays
 
 MODELS = {ContactMsg.MODEL_FPC: ContactModel.FPC, ContactMsg.MODEL_PCWF: ContactModel.PCWF,
@@ -129,5 +129,5 @@ def _number(item, name, default, field):
     value, = checked_numbers((getattr(item, name),), f'{field}.{name}')
     if value != 0.0 and value < SMALLEST:
         raise InvalidMessageError(
-            f'{field}.{name} must be at least {SMALLEST:g}, or 0 for the node default, got {value}')
+            f'{field}.{name} must be at least {SMALLEST:g}, or 0 for the default, got {value}')
     return value or default

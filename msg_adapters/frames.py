@@ -15,7 +15,7 @@ from rclpy.time import Time
 
 from grasp_quality.wrench import transform
 from msg_adapters.errors import InvalidMessageError, TransformError
-from msg_adapters.numbers import checked_numbers
+from msg_adapters.number_checks import checked_numbers
 from msg_adapters.poses import rotation_matrix
 
 

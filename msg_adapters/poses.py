@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from msg_adapters.errors import InvalidMessageError
-from msg_adapters.numbers import checked_numbers
+from msg_adapters.number_checks import checked_numbers
 
 QUATERNION_TOLERANCE = 1e-3  # of the norm, before it is made exact
 

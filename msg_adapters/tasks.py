@@ -7,7 +7,7 @@ import numpy as np
 from grasp_quality.task import TaskCone, TaskPolytope, TaskWrench
 from grasp_quality_msgs.srv import SetTask
 from msg_adapters.errors import InvalidMessageError
-from msg_adapters.numbers import SMALLEST, checked_numbers
+from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.wrenches import wrench_array
 
 
@@ -78,6 +78,5 @@ def _moved(wrench, transform):
 def _nonzero(wrench, transform, name):
     if not np.abs(wrench).max() >= SMALLEST:
         raise InvalidMessageError(
-            f'{name} must not be zero, or smaller than {SMALLEST:g}: it has no direction that alpha '
-            'could scale')
+            f'{name} must not be zero (below {SMALLEST:g}): it has no direction to scale')
     return _moved(wrench, transform)

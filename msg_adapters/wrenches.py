@@ -5,7 +5,7 @@
 import numpy as np
 from geometry_msgs.msg import Point, Vector3, Wrench
 
-from msg_adapters.numbers import checked_numbers
+from msg_adapters.number_checks import checked_numbers
 
 
 def wrench_array(message, name):

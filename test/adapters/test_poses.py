@@ -1,0 +1,70 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""Poses: position and rotation, checked."""
+
+from adapter_messages import any_float, BAD_NUMBERS, EXACT, pose, quaternion_of, sizes
+from geometry_msgs.msg import Pose, Quaternion
+from hypothesis import assume, given, strategies
+from msg_adapters.errors import InvalidMessageError
+from msg_adapters.poses import pose_arrays, rotation_matrix
+import numpy as np
+import pytest
+
+HALF = float(np.sqrt(0.5))
+
+
+@pytest.mark.parametrize('quaternion, images', [
+    ((0.0, 0.0, 0.0, 1.0), np.eye(3)),
+    ((HALF, 0.0, 0.0, HALF), [[1, 0, 0], [0, 0, 1], [0, -1, 0]]),
+    ((0.0, HALF, 0.0, HALF), [[0, 0, -1], [0, 1, 0], [1, 0, 0]]),
+    ((0.0, 0.0, HALF, HALF), [[0, 1, 0], [-1, 0, 0], [0, 0, 1]]),
+    ((0.0, 0.0, 0.0, -1.0), np.eye(3))])
+def test_quarter_turns_take_the_axes_where_the_right_hand_says(quaternion, images):
+    x, y, z, w = quaternion
+    R = rotation_matrix(Quaternion(x=x, y=y, z=z, w=w), 'q')
+    np.testing.assert_allclose(R.T, images, atol=EXACT)
+
+
+@given(strategies.tuples(sizes, sizes, sizes, sizes))
+def test_every_unit_quaternion_is_a_rotation(numbers):
+    assume(np.linalg.norm(numbers) > 1e-3)
+    R = rotation_matrix(quaternion_of(numbers), 'q')
+    np.testing.assert_allclose(R.T @ R, np.eye(3), atol=EXACT)
+    assert np.linalg.det(R) == pytest.approx(1.0, abs=EXACT)
+
+
+@pytest.mark.parametrize('factor', [0.9995, 1.0005])
+def test_rounding_of_the_norm_is_forgiven_and_made_exact(factor):
+    R = rotation_matrix(Quaternion(x=0.6 * factor, y=0.0, z=0.0, w=0.8 * factor), 'q')
+    np.testing.assert_allclose(R.T @ R, np.eye(3), atol=EXACT)
+
+
+@pytest.mark.parametrize('numbers', [
+    (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.01), (0.5, 0.5, 0.5, 0.6), (1e200, 0.0, 0.0, 1.0)])
+def test_other_norms_are_refused_with_the_way_out(numbers):
+    x, y, z, w = numbers
+    with pytest.raises(InvalidMessageError, match='a.orientation must be a quaternion of norm 1'):
+        pose_arrays(Pose(orientation=Quaternion(x=x, y=y, z=z, w=w)), 'a')
+
+
+@pytest.mark.parametrize('part, axis', [
+    ('position', 'x'), ('position', 'y'), ('position', 'z'), ('orientation', 'x'),
+    ('orientation', 'y'), ('orientation', 'z'), ('orientation', 'w')])
+@pytest.mark.parametrize('value', BAD_NUMBERS)
+def test_a_bad_number_is_refused_by_field(part, axis, value):
+    message = pose()
+    setattr(getattr(message, part), axis, value)
+    with pytest.raises(InvalidMessageError, match=f'poses.3..{part} must be'):
+        pose_arrays(message, 'poses[3]')
+
+
+@given(strategies.tuples(*[any_float] * 7))
+def test_any_numbers_give_a_finite_frame_or_a_clear_error(numbers):
+    x, y, z, w = numbers[3:]
+    message = pose(numbers[:3], Quaternion(x=x, y=y, z=z, w=w))
+    try:
+        position, rotation = pose_arrays(message, 'pose')
+    except InvalidMessageError:
+        return
+    assert np.isfinite(position).all() and np.isfinite(rotation).all()
+    assert position.tolist() == list(numbers[:3])

@@ -1,0 +1,19 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""QoS: nothing is latched, nothing queues."""
+
+from msg_adapters import qos
+import pytest
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
+
+
+@pytest.mark.parametrize('profile', [qos.newest_sample(), qos.newest_command()])
+def test_only_the_newest_and_never_to_late_joiners(profile):
+    assert profile.durability == DurabilityPolicy.VOLATILE
+    assert profile.history == HistoryPolicy.KEEP_LAST
+    assert profile.depth == 1
+
+
+def test_samples_may_be_lost_and_commands_may_not():
+    assert qos.newest_sample().reliability == ReliabilityPolicy.BEST_EFFORT
+    assert qos.newest_command().reliability == ReliabilityPolicy.RELIABLE
