@@ -14,13 +14,13 @@ setup(
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
     ],
-    install_requires=['setuptools', 'numpy', 'mujoco-core', 'matplotlib'],
+    install_requires=['setuptools', 'numpy', 'scipy', 'mujoco-core', 'matplotlib'],
     extras_require={'test': ['pytest']},
     zip_safe=True,
     author='The grasp_quality authors',
     maintainer='The grasp_quality authors',
     maintainer_email='grasp_quality@example.com',
-    description='A simulated three-finger hand (D\'Claw) and a demo for grasp_quality.',
+    description="A simulated three-finger hand (D'Claw) and a demo for grasp_quality.",
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
