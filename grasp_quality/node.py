@@ -30,7 +30,11 @@ def main(args=None):
     stopping = []
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stopping.append(True))
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    except Exception as exc:  # RCLError, UnknownROSArgsError, ...: no common base
+        print(f'grasp_quality_node: {type(exc).__name__}: {exc}', file=sys.stderr)
+        return 1
     try:
         node = _make_node()
         if node is None:
@@ -61,6 +65,8 @@ def _make_node():
         done = node.trigger_configure() == TransitionCallbackReturn.SUCCESS \
             and node.trigger_activate() == TransitionCallbackReturn.SUCCESS
         node.get_logger().info('active' if done else 'autostart failed: configure it by hand')
+    else:
+        node.get_logger().info('not active: waits to be configured and activated (autostart)')
     return node
 
 
