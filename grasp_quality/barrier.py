@@ -17,15 +17,16 @@ import numpy as np
 
 from grasp_quality import friction_cone
 from grasp_quality.arrays import frozen
-from grasp_quality.bounds import gauge
+from grasp_quality.bounds import gauge, support
 from grasp_quality.centering import weighted_center
 from grasp_quality.exceptions import SolverError
 from grasp_quality.problem import VirtualContact, assemble
 from grasp_quality.proof import GAP_TOLERANCE, prove
 from grasp_quality.solution import Status
-from grasp_quality.solve import prove_optimal
+from grasp_quality.solve import prove_optimal, task_share
 
-NEXT_TO_NOTHING = 1e-13    # weight of the cones that eq. (11) gives none
+NEXT_TO_NOTHING = 1e-11    # weight, over max(1, eps), of the cones that eq. (11) gives none
+NEGLIGIBLE = 1e-8          # share of a0 below which the task counts as not served at all
 INTERIOR_TOLERANCE = 1e-8  # share of the caps below which a force is not strictly inside
 CONE_GENERATORS = 16       # of a task cone, where only its polyhedral inside can be asked
 
@@ -56,18 +57,19 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
     """
     grasp, unit = problem.grasp, problem.virtual.unit
     eps = barrier_weight / unit
-    center = _center(problem, eps)
+    center = _center(problem, eps, solution.alpha_upper / unit > NEGLIGIBLE * problem.reach)
     if center is not None:
         shares, values, multipliers = center
         forces = frozen(shares * grasp.force_units)
-        proof = prove(problem, forces, values, multipliers[:6])
+        proof = prove(problem, forces, values, multipliers)
         objective = values[0] + eps * _log_det(grasp, shares).sum()
-        upper = objective_upper(problem, multipliers, eps)
+        upper = objective_upper(problem, multipliers, eps, solution.proof)
         gap = (upper - objective) / max(values[0], eps, 1e-3 * proof.size)
         if gap <= GAP_TOLERANCE and dataclasses.replace(proof, upper=proof.objective).holds:
+            alpha, wrench = task_share(problem, values, solution.alpha_upper)
             return dataclasses.replace(
-                solution, alpha=max(0.0, float(values[0])) * unit, forces=forces,
-                wrench=frozen((values * unit) @ problem.virtual.wrenches),
+                solution, alpha=alpha, alpha_lower=min(solution.alpha_lower, alpha),
+                forces=forces, wrench=wrench,
                 cone_usage=frozen(friction_cone.usage(
                     forces, grasp.scales, grasp.max_normal_forces)),
                 proof=dataclasses.replace(
@@ -86,17 +88,24 @@ def _log_det(grasp, shares):
     return friction_cone.log_det(shares, (grasp.scales > 0.0).astype(np.float64))
 
 
-def _center(problem, eps):
-    """Forces as shares (k, 4), values (t,) and multipliers of the weighted centre, or None."""
+def _center(problem, eps, with_task):
+    """
+    Forces as shares (k, 4), values (t,) and multipliers of the weighted centre, or None.
+
+    A task that cannot be served at all leaves alpha no interior, and is left out: alpha is 0.
+
+    """
     layout, grasp = problem.layout, problem.grasp
     blocks = layout.blocks  # (blocks, d), -1 where padded
+    if not with_task:
+        blocks = blocks[~np.isin(blocks[:, 0], layout.virtual)]
     padded = blocks < 0
     E = np.where(padded, 0.0, problem.E[:, blocks])
     c = np.where(padded, 0.0, problem.c[blocks])
     # the logarithm of a half line is half of its log det as a cone
     is_contact = np.isin(blocks[:, 0], layout.contact_variables)
     weights = np.where(is_contact, eps * np.where(padded[:, 1:].all(axis=1), 0.5, 1.0),
-                       NEXT_TO_NOTHING)
+                       NEXT_TO_NOTHING * max(1.0, eps))
     found = weighted_center(E, problem.e, c, weights)
     if found is None:
         return None
@@ -107,13 +116,14 @@ def _center(problem, eps):
     return shares / excess, values, found[1]
 
 
-def objective_upper(problem, multipliers, eps):
+def objective_upper(problem, multipliers, eps, proof):
     """
     Bound the objective of eq. (11), in scaled units, by its Lagrangian dual in closed form.
 
     With s_i = (nu_i - h_n, -h_rest), h = G_i^T lambda, every contact contributes
     eps (log(4 eps^2 / det s_i) - 2), or eps (log(eps / s_i) - 1) without friction; any lambda with
-    lambda . F >= 1 gives a bound, and so does any nu that keeps every s_i inside its cone.
+    lambda . F >= 1 gives a bound, and so does any nu that keeps every s_i inside its cone. What
+    lambda . F lacks of one is made up with the multipliers of eps = 0.
 
     Parameters
     ----------
@@ -122,29 +132,26 @@ def objective_upper(problem, multipliers, eps):
         lambda, in scaled units, and the multipliers of the bound's equations behind it.
     eps : float
         Barrier weight over the unit of alpha.
+    proof : Proof
+        Of the answer at eps = 0.
 
     """
     grasp, columns = problem.grasp, problem.virtual.columns
+    nu = np.maximum(problem.layout.contact_multipliers(multipliers), 0.0)
     along = multipliers[:6] @ columns
-    slack = along[0] - np.sqrt(along[1:] @ along[1:])
-    if not slack > 0.0:
-        return np.inf
-    multipliers = multipliers / min(slack, 1.0)
-    h = (multipliers[:6] @ grasp.scaled_matrix.reshape(6, -1)).reshape(-1, 4)
+    missing = max(0.0, 1.0 - along[0] + np.sqrt(along[1:] @ along[1:]))
+    lambda_ = multipliers[:6] + missing * proof.multiplier
+    nu = nu + missing * proof.bound_multiplier
+    h = (lambda_ @ grasp.scaled_matrix.reshape(6, -1)).reshape(-1, 4)
     rest = np.sqrt(h[:, 0] ** 2 + h[:, 1] ** 2 + h[:, 3] ** 2)
-    frictional = (grasp.scales[:, (0, 1, 3)] > 0.0).any(axis=1)
-    if grasp.bound == 'l2':
-        nu = multipliers[7:]
-        bound_total = np.sqrt(nu @ nu)
-    else:
-        groups = np.maximum(multipliers[6:], 0.0)
-        nu, bound_total = groups[list(grasp.groups)], groups.sum()
     s = nu - h[:, 2]
     if not (s > rest).all():
         return np.inf
+    frictional = (grasp.scales[:, (0, 1, 3)] > 0.0).any(axis=1)
     each = np.where(frictional, np.log(4.0 * eps ** 2 / ((s - rest) * (s + rest))) - 2.0,
                     np.log(eps / s) - 1.0)
-    return bound_total + multipliers[:6] @ problem.scaled_external_wrench + eps * each.sum()
+    return (support(nu, grasp.bound, grasp.groups) + lambda_ @ problem.scaled_external_wrench
+            + eps * each.sum())
 
 
 def has_interior(problem, time_limit_s=None):

@@ -19,9 +19,10 @@ from grasp_quality.cone_algebra import Scaling, divide, is_interior, largest_ste
 
 MAX_ITERATIONS = 80
 STEP_SHARE = 0.95    # of the way to the edge of the cones
-DECREASE = (0.1, 1e-4)  # of the mean distance from the weights: after a cut, after a full step
+SHORT_STEP = 0.3     # below it the iterate is too far off the middle for a cut
+DECREASE = (0.7, 0.1, 1e-4)  # of the mean distance: after a short step, a cut one, a full one
 TOLERANCE = 1e-12    # residuals, and distance from the weights relative to the largest
-ACCEPTED = 1e-10     # of the same, when rounding stops the iteration short of it
+ACCEPTED = 1e-8      # of the same, when rounding stops the iteration short of it
 RANK_TOLERANCE = 1e-9
 
 
@@ -65,7 +66,7 @@ def weighted_center(E, e, c, weights):
         scaled = W.apply(z)
         complementarity = product(scaled, scaled)
         target = np.zeros((blocks, d))
-        target[:, 0] = 2.0 * (weights + DECREASE[step == 1.0] * excess)
+        target[:, 0] = 2.0 * (weights + DECREASE[(step > SHORT_STEP) + (step == 1.0)] * excess)
         finish = np.zeros((blocks, d))
         finish[:, 0] = 2.0 * weights
         distance = max(
@@ -73,6 +74,8 @@ def weighted_center(E, e, c, weights):
             np.abs(complementarity - finish).max() / max(1.0, weights.max()))
         if distance < best_distance:
             best, best_distance = (u, x), distance
+        elif best_distance <= ACCEPTED:
+            break
         if distance <= TOLERANCE:
             break
         q = divide(scaled, target - complementarity)

@@ -77,6 +77,10 @@ class Layout:
         shares.ravel()[self.contact_source] = u[self.contact_variables]
         return shares
 
+    def contact_multipliers(self, multipliers):
+        """Multiplier nu of the bound for every contact (k,), from those of all equations."""
+        return multipliers[6:][list(self.groups)] if self.groups else multipliers[7:]
+
     def cap_total(self, grasp):
         """Sum over the groups of their largest cap, as a share of the largest of all."""
         shares = grasp.max_normal_forces / grasp.force_scale

@@ -89,8 +89,9 @@ def prove(problem, forces, values, multipliers):
         Local contact forces.
     values : (t,) array
         Variables of the virtual contact.
-    multipliers : (6,) array
-        The solver's lambda; anything is allowed here, a bad one gives a bad bound.
+    multipliers : (equations,) array
+        The solver's lambda, and its nu behind it; anything is allowed here, a bad one gives a bad
+        bound.
 
     Returns
     -------
@@ -98,7 +99,11 @@ def prove(problem, forces, values, multipliers):
 
     """
     grasp, virtual = problem.grasp, problem.virtual
-    worth, per_contact, bound_total = worth_of(grasp, multipliers)
+    nu, multipliers = problem.layout.contact_multipliers(multipliers), multipliers[:6]
+    _, per_contact, bound_total = worth_of(grasp, multipliers)
+    if virtual.role == 'pressing':  # here the least nu is not always the best
+        per_contact = np.maximum(per_contact, nu)
+        bound_total = bounds.support(per_contact, grasp.bound, grasp.groups)
     slack = _virtual_slack(problem, multipliers, per_contact, bound_total)
     upper = multipliers @ problem.scaled_external_wrench
     if virtual.role != 'widening':
@@ -114,18 +119,17 @@ def prove(problem, forces, values, multipliers):
     shares = grasp.shares(forces)
     balance = (grasp.scaled_matrix.reshape(6, -1) @ shares.ravel()
                + problem.scaled_external_wrench)
-    allowed = 1.0
-    if virtual.role == 'widening':
-        allowed = values[0]
-    else:
+    widening = virtual.role == 'widening'
+    allowed = values[0] if widening else 1.0
+    if not widening:
         balance = balance - virtual.columns @ values
     pressed = shares[:, 2] + (values[0] if virtual.role == 'pressing' else 0.0)
     used = bounds.gauge(pressed, grasp.bound, grasp.groups)
     load = problem.scaled_external_wrench
-    scale_of_forces = max(problem.reach, np.sqrt(load @ load))
+    size_of_forces = max(problem.reach * allowed, np.sqrt(load @ load))
     return Proof(
         objective=float(virtual.objective @ values), upper=float(upper),
-        residual=float(np.sqrt(balance @ balance)) / scale_of_forces,
+        residual=float(np.sqrt(balance @ balance)) / size_of_forces,
         usage=float(friction_cone.usage(
             forces, grasp.scales, grasp.max_normal_forces, unloaded=ROUNDING).max()),
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
@@ -148,18 +152,32 @@ def infeasibility_margin(problem, direction):
     float, as a share of the caps' total; the problem is infeasible when it is positive.
 
     """
-    widest = ENDLESS
-    if problem.virtual.role != 'widening':
-        widest = 1.0
-        axis = problem.virtual.columns[:, 0]
-        slack = _virtual_slack(problem, direction, np.zeros(len(problem.grasp)), 0.0)
-        direction = direction + max(0.0, -slack) * axis / (axis @ axis)
+    direction = _sparing_the_task(problem.virtual, direction)
     size = np.sqrt(direction @ direction)
     if not size > 0.0:
         return 0.0
+    widest = ENDLESS if problem.virtual.role == 'widening' else 1.0
     _, _, bound_total = worth_of(problem.grasp, direction)
     work = widest * bound_total + direction @ problem.scaled_external_wrench
     return float(-work / size / problem.reach)
+
+
+def _sparing_the_task(virtual, direction):
+    """Turn a direction until no task does negative work along it; zero where that fails."""
+    axis, rest = virtual.columns[:, 0], virtual.columns[:, 1:]
+    size = np.abs(direction).max()
+    if not 0.0 < size < np.inf:
+        return np.zeros(6)
+    direction = direction / size
+    if virtual.role == 'widening':
+        return direction
+    if virtual.role == 'pressing':  # a common press is what nu pays for
+        return direction if (direction @ rest >= 0.0).all() else np.zeros(6)
+    slack = direction @ axis - np.linalg.norm(direction @ rest)
+    turn = axis @ axis - np.linalg.norm(axis @ rest)
+    if slack < 0.0:
+        direction = direction - (slack / turn) * axis if turn > 0.0 else np.zeros(6)
+    return direction
 
 
 def worth_of(grasp, multipliers):

@@ -57,20 +57,18 @@ def prove_optimal(problem, time_limit_s=None):
 
     """
     said = []
-    for attempt in range(len(clarabel_solver.TOLERANCES)):
+    for attempt in range(len(clarabel_solver.ATTEMPTS)):
         answer = clarabel_solver.run(problem, attempt, time_limit_s)
-        if answer.outcome == 'infeasible':
-            margin = infeasibility_margin(problem, answer.multipliers[:6])
-            if margin > INFEASIBILITY_TOLERANCE:
-                return None
-            said.append(f'{answer.status} with margin {margin:.2g}')
-        elif answer.outcome == 'solved':
+        if answer.solved:
             optimum = _optimum(problem, answer)
             if optimum.proof.holds:
                 return optimum
             said.append(f'{answer.status} with {optimum.proof}')
-        else:
-            said.append(answer.status)
+        else:  # whatever the solver calls it, a direction that separates proves infeasibility
+            margin = infeasibility_margin(problem, answer.multipliers[:6])
+            if margin > INFEASIBILITY_TOLERANCE:
+                return None
+            said.append(f'{answer.status} with margin {margin:.2g}')
     raise SolverError(
         'no answer could be proved; the solver said: ' + '; '.join(said), problem, said[-1])
 
@@ -79,15 +77,17 @@ def _optimum(problem, answer):
     grasp, role = problem.grasp, problem.virtual.role
     values = answer.u[problem.layout.virtual]
     shares = problem.layout.shares(answer.u)
-    if role != 'widening':
-        # the solver holds the equations to its tolerance only; the caps shall hold exactly
-        pressed = shares[:, 2] + (values[0] if role == 'pressing' else 0.0)
-        excess = max(1.0, gauge(pressed, grasp.bound, grasp.groups))
-        shares /= excess
-        if not problem.external_wrench.any():
-            values = values / excess
+    # the solver holds the equations to its tolerance only; the bound shall hold exactly
+    pressed = shares[:, 2] + (values[0] if role == 'pressing' else 0.0)
+    used = gauge(pressed, grasp.bound, grasp.groups)
+    if role == 'widening':
+        values = np.array([used])
+    elif used > 1.0:
+        shares = shares / used
+        if role == 'pressing' or not problem.external_wrench.any():
+            values = values / used
     forces = frozen(shares * grasp.force_units)
-    return Optimum(forces, values, prove(problem, forces, values, answer.multipliers[:6]))
+    return Optimum(forces, values, prove(problem, forces, values, answer.multipliers))
 
 
 def solve(problem, time_limit_s=None):
@@ -116,7 +116,7 @@ def solve(problem, time_limit_s=None):
     if optimum is None:
         return infeasible(kind, grasp)
     proof, unit = optimum.proof, virtual.unit
-    alpha = max(0.0, min(float(optimum.values[0]), proof.upper)) * float(unit)
+    alpha, wrench = task_share(problem, optimum.values, proof.upper * unit)
     loaded = bool(problem.external_wrench.any())
     lower, holdable = _lower_end(problem, alpha, time_limit_s) if loaded else (0.0, True)
     # without a load only alpha = 0 can come of a wrench that the grasp does not span
@@ -125,13 +125,21 @@ def solve(problem, time_limit_s=None):
     return kind(
         grasp=grasp, status=Status.OPTIMAL, alpha=alpha,
         alpha_upper=max(proof.upper * unit, alpha), alpha_lower=lower, holdable=holdable,
-        pinned=pinned, wrench=frozen((optimum.values * unit) @ virtual.wrenches),
+        pinned=pinned, wrench=wrench,
         forces=optimum.forces,
         cone_usage=frozen(friction_cone.usage(
             optimum.forces, grasp.scales, grasp.max_normal_forces)),
         proof=proof, multiplier=dimensional_multiplier(problem, proof.multiplier),
         bound_multiplier=frozen(proof.bound_multiplier * unit),
         reference_forces=optimum.forces)
+
+
+def task_share(problem, values, alpha_upper):
+    """Alpha and the wrench (6,) that it stands for, held between zero and its upper bound."""
+    virtual, found = problem.virtual, float(values[0])
+    alpha = max(0.0, min(found * virtual.unit, alpha_upper))
+    share = alpha / found if found > 0.0 else 0.0
+    return alpha, frozen((values * share) @ virtual.wrenches)
 
 
 def infeasible(kind, grasp):

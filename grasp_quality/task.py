@@ -16,6 +16,8 @@ from grasp_quality.arrays import checked, checked_number, frozen
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.wrench import as_wrench
 
+PARALLEL = 1e-9  # share of the axis below which what the laterals cannot cancel counts as nothing
+
 
 def _nonzero(value, name):
     wrench = as_wrench(value, name)
@@ -79,6 +81,20 @@ class TaskCone:
         samples = self.surface_samples
         if not isinstance(samples, (int, np.integer)) or samples < 0:
             raise InvalidTaskError(f'surface_samples must be a whole number >= 0, got {samples!r}')
+        if self._holds_zero():
+            raise InvalidTaskError(
+                'the task cone holds the zero wrench, so that alpha_z has no end: axis '
+                f'{self.axis.tolist()} is lateral_x {self.lateral_x.tolist()} and lateral_y '
+                f'{self.lateral_y.tolist()} times no more than tan(half_angle) '
+                f'{np.tan(self.half_angle):g}; choose laterals that are independent of the axis')
+
+    def _holds_zero(self):
+        """Whether axis + x lateral_x + y lateral_y can vanish with |(x, y)| <= tan(half_angle)."""
+        laterals = np.stack([self.lateral_x, self.lateral_y], axis=1)  # (6, 2)
+        least = -np.linalg.lstsq(laterals, self.axis)[0]
+        rest = self.axis + laterals @ least
+        return bool(np.abs(rest).max() <= PARALLEL * np.abs(self.axis).max()
+                    and np.hypot(*least) <= np.tan(self.half_angle) * (1.0 + PARALLEL))
 
     @property
     def surface(self):
