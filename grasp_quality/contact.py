@@ -16,6 +16,7 @@ import numpy as np
 from grasp_quality.arrays import checked, checked_number, frozen
 from grasp_quality.exceptions import InvalidContactError
 
+IDENTITY = frozen(np.eye(3))
 ROTATION_TOLERANCE = 1e-6  # largest |R^T R - I| entry that still counts as a rotation
 
 
@@ -95,8 +96,10 @@ class Contact:
             normal = checked(self.normal, (3,), label + 'normal', InvalidContactError)
             return frozen(frame_from_normal(normal, label))
         rotation = checked(self.rotation, (3, 3), label + 'rotation', InvalidContactError)
-        skew = np.abs(rotation.T @ rotation - np.eye(3)).max()
-        if skew > ROTATION_TOLERANCE or np.linalg.det(rotation) < 0.0:
+        skew = np.abs(rotation.T @ rotation - IDENTITY).max()
+        (a, b, c), (d, e, f), (g, h, i) = rotation.tolist()
+        determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+        if skew > ROTATION_TOLERANCE or determinant < 0.0:
             raise InvalidContactError(
                 f'{label}rotation must be a right-handed orthonormal matrix (columns t1, t2, '
                 f'inward normal), got {rotation.tolist()}')

@@ -15,11 +15,13 @@ import numpy as np
 from grasp_quality import bounds
 from grasp_quality.arrays import frozen
 from grasp_quality.contact import Contact
+from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidGraspError
 from grasp_quality.friction_cone import coordinate_scales
 from grasp_quality.wrench import cross, shift
 
 RANK_TOLERANCE = 1e-9  # singular values below this share of the largest count as zero
+COINCIDENT = 1e-8      # distance over distance from the origin: float64 keeps 1e-16 of the latter
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +31,8 @@ class Grasp:
 
     Parameters
     ----------
-    contacts : iterable of Contact
-        At least one; names must be unique where given.
+    contacts : iterable of Contact, or ContactSet
+        At least one; names must be unique where given. Kept as a ContactSet.
     bound : str
         'linf' (every contact obeys its own cap), 'l1' (the sum of n_i / f_max,i is at most 1),
         'l2' (their Euclidean norm is), 'finger' (their sum over each finger is).
@@ -41,28 +43,20 @@ class Grasp:
 
     """
 
-    contacts: tuple
+    contacts: ContactSet
     bound: str = 'linf'
 
     def __post_init__(self):
         """Validate and freeze."""
-        try:
-            contacts = tuple(self.contacts)
-        except TypeError as exc:
-            raise InvalidGraspError(
-                f'contacts must be a sequence of Contact, got {self.contacts!r}') from exc
-        strangers = [c for c in contacts if not isinstance(c, Contact)]
-        if strangers:
-            raise InvalidGraspError(f'contacts must be Contact objects, got {strangers[0]!r}')
-        if not contacts:
+        contacts = _as_set(self.contacts)
+        if not len(contacts):
             raise InvalidGraspError('a grasp needs at least one contact, got none')
-        named = [c.name for c in contacts if c.name]
-        twice = sorted({name for name in named if named.count(name) > 1})
-        if twice:
+        named = [name for name in contacts.names if name]
+        if len(set(named)) < len(named):
+            twice = sorted({name for name in named if named.count(name) > 1})
             raise InvalidGraspError(f'contact names must be unique, given twice: {twice}')
         object.__setattr__(self, 'contacts', contacts)
-        object.__setattr__(
-            self, 'groups', bounds.groups_of(self.bound, [c.finger for c in contacts]))
+        object.__setattr__(self, 'groups', bounds.groups_of(self.bound, contacts.fingers))
 
     def __len__(self):
         """Count the contacts."""
@@ -71,29 +65,28 @@ class Grasp:
     @cached_property
     def names(self):
         """Name of every contact; 'contact_<index>' where none was given."""
-        return tuple(c.name or f'contact_{i}' for i, c in enumerate(self.contacts))
+        return tuple(name or f'contact_{i}' for i, name in enumerate(self.contacts.names))
 
-    @cached_property
+    @property
     def positions(self):
         """Contact points (k, 3) [m] in the object frame."""
-        return frozen(np.array([c.position for c in self.contacts]))
+        return self.contacts.positions
 
-    @cached_property
+    @property
     def rotations(self):
         """R_object_contact of every contact (k, 3, 3); columns t1, t2, inward normal."""
-        return frozen(np.array([c.rotation for c in self.contacts]))
+        return self.contacts.rotations
 
-    @cached_property
+    @property
     def max_normal_forces(self):
         """Caps f_max (k,) [N]."""
-        return frozen(np.array([c.max_normal_force for c in self.contacts]))
+        return self.contacts.max_normal_forces
 
     @cached_property
     def scales(self):
         """Cone scales [mu, mu, 1, gamma] (k, 4) that the contact models let act."""
         return frozen(coordinate_scales(
-            np.array([c.effective_friction for c in self.contacts]),
-            np.array([c.effective_torsional_friction for c in self.contacts])))
+            self.contacts.effective_friction, self.contacts.effective_torsional_friction))
 
     @cached_property
     def matrix(self):
@@ -110,13 +103,17 @@ class Grasp:
         """
         Length scale of the grasp [m]: largest distance of a contact from their mean.
 
-        Where all contacts coincide, the largest torsional coefficient; 1 m when that is zero too.
+        Where all contacts coincide, as far as float64 coordinates can tell them apart to eight
+        digits, the largest torsional coefficient; their distance from the origin, or else 1 m,
+        when that is zero too.
 
         """
         offsets = self.positions - self.center
         reach = float(np.sqrt((offsets * offsets).sum(axis=1).max()))
-        spread = 1e-12 * float(np.abs(self.positions).max())
-        return reach if reach > spread else float(self.scales[:, 3].max()) or 1.0
+        away = float(np.abs(self.positions).max())
+        if reach > COINCIDENT * away:
+            return reach
+        return float(self.scales[:, 3].max()) or away or 1.0
 
     @cached_property
     def scaled_matrix(self):
@@ -183,3 +180,17 @@ class Grasp:
         G[3:, :, :3] = cross(positions[:, None, :], R.transpose(0, 2, 1)).transpose(2, 0, 1)
         G[3:, :, 3] = R[:, :, 2].T
         return G
+
+
+def _as_set(contacts):
+    if isinstance(contacts, ContactSet):
+        return contacts
+    try:
+        contacts = tuple(contacts)
+    except TypeError as exc:
+        raise InvalidGraspError(
+            f'contacts must be a sequence of Contact, got {contacts!r}') from exc
+    strangers = [c for c in contacts if not isinstance(c, Contact)]
+    if strangers:
+        raise InvalidGraspError(f'contacts must be Contact objects, got {strangers[0]!r}')
+    return ContactSet.of(contacts)

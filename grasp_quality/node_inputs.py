@@ -13,6 +13,7 @@ import numpy as np
 from builtin_interfaces.msg import Time
 
 from grasp_quality.contact import Contact
+from grasp_quality.contact_set import ContactSet
 from grasp_quality_msgs.srv import SetTask
 from msg_adapters.contacts import contacts_from_array, contacts_from_poses
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
@@ -31,7 +32,7 @@ class Scene:
 
     Attributes
     ----------
-    contacts : tuple of Contact
+    contacts : ContactSet
         Those that count as loaded.
     forces : tuple of (4,) array or None
         Measured local force of each, where there is a fresh one.
@@ -42,7 +43,7 @@ class Scene:
 
     """
 
-    contacts: tuple
+    contacts: ContactSet
     forces: tuple
     frame: str
     stamp: Time
@@ -131,15 +132,15 @@ class Inputs:
         if threshold > 0.0:
             loaded = [i for i, force in enumerate(forces)
                       if force is not None and force[2] >= threshold]
-            if contacts and not loaded:
+            if len(contacts) and not loaded:
                 raise NoContactsError(LOADED_MEASUREMENTS)
-            contacts, forces = [contacts[i] for i in loaded], [forces[i] for i in loaded]
-        if not contacts:
+            contacts, forces = contacts.subset(loaded), [forces[i] for i in loaded]
+        if not len(contacts):
             raise NoContactsError('the newest contact message holds no contacts')
-        return Scene(tuple(contacts), tuple(forces), frame, message.header.stamp)
+        return Scene(contacts, tuple(forces), frame, message.header.stamp)
 
     def read_contacts(self, message):
-        """Turn a PoseArray or ContactArray into (list of Contact, object frame)."""
+        """Turn a PoseArray or ContactArray into (ContactSet, object frame)."""
         settings = self._settings()
         frame = object_frame_of(message.header.frame_id, settings.object_frame)
         transform = self.transform(message.header, frame)
@@ -159,14 +160,14 @@ class Inputs:
         """Fresh measured force (4,) of each contact, or None."""
         forces, problems = [], []
         limit = self._settings().max_contact_age
-        for contact in contacts:
-            message, arrival = self._wrenches.get(contact.name, (None, 0))
+        for i, name in enumerate(contacts.names):
+            message, arrival = self._wrenches.get(name, (None, 0))
             force = None
             if message is not None:
                 ages = self._ages(message, arrival)
                 if -limit <= min(ages) and max(ages) <= limit:
                     try:
-                        force = local_force(message, contact, frame)
+                        force = local_force(message, contacts[i], frame)
                     except InvalidMessageError as exc:
                         problems.append(str(exc))
             forces.append(force)

@@ -70,7 +70,7 @@ class Services:
         else:
             scene = self._inputs.scene()
             contacts, frame, stamp = scene.contacts, scene.frame, scene.stamp
-        if not contacts:
+        if not len(contacts):
             raise NoContactsError('the request holds no contacts and none were received')
         transform = self._inputs.transform(request.header, frame)
         grasp = Grasp(contacts, self._settings().force_bound)

@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from grasp_quality.arrays import frozen
+from grasp_quality.contact import ContactModel
 from grasp_quality.grasp import Grasp
 from grasp_quality.proof import Proof
 from grasp_quality.wrench import cross
@@ -160,7 +161,7 @@ class Solution:
 
     @cached_property
     def _has_friction(self):
-        return np.array([c.model.value != 'FPC' for c in self.grasp.contacts])
+        return np.array([m is not ContactModel.FPC for m in self.grasp.contacts.models])
 
 
 @dataclass(frozen=True, eq=False)

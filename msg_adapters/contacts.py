@@ -1,7 +1,7 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Contacts: PoseArray and ContactArray messages to core Contact objects in the object frame.
+Contacts: PoseArray and ContactArray messages to a core ContactSet in the object frame.
 
 Zero in a field of a ContactArray means the node's default; a PoseArray takes everything but the
 poses from the defaults. +z of each pose is the inward normal.
@@ -9,7 +9,10 @@ poses from the defaults. +z of each pose is the inward normal.
 
 from dataclasses import dataclass
 
-from grasp_quality.contact import Contact, ContactModel
+import numpy as np
+
+from grasp_quality.contact import ContactModel
+from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidContactError
 from grasp_quality_msgs.msg import Contact as ContactMsg
 from msg_adapters.errors import InvalidMessageError
@@ -58,7 +61,7 @@ def contacts_from_poses(message, defaults, transform=None):
 
     Returns
     -------
-    list of Contact, empty for an empty message
+    ContactSet, empty for an empty message
 
     Raises
     ------
@@ -73,12 +76,13 @@ def contacts_from_poses(message, defaults, transform=None):
             f'poses must hold one pose for each of the {len(names)} contact_names '
             f'{list(names)}, got {count}: publish them all (contact_wrenches tell which are '
             'loaded), leave contact_names empty, or use contact_source contact_array')
-    return [
-        _contact(f'poses[{i}]', pose, transform, name=names[i], finger=fingers[i],
-                 model=defaults.model, friction=defaults.friction,
-                 torsional_friction=defaults.torsional_friction,
-                 max_normal_force=defaults.max_normal_force)
-        for i, pose in enumerate(message.poses)]
+    poses = [pose_arrays(pose, f'poses[{i}]') for i, pose in enumerate(message.poses)]
+    return _contact_set(
+        poses, transform, models=[defaults.model] * count,
+        friction=[defaults.friction] * count,
+        torsional_friction=[defaults.torsional_friction] * count,
+        max_normal_forces=[defaults.max_normal_force] * count,
+        names=names[:count], fingers=fingers[:count])
 
 
 def contacts_from_array(message, defaults, transform=None):
@@ -88,32 +92,33 @@ def contacts_from_array(message, defaults, transform=None):
     Parameters, result and errors are those of ``contacts_from_poses``.
 
     """
-    contacts, seen = [], set()
-    for i, item in enumerate(message.contacts):
-        field = f'contacts[{i}]'
-        name = item.name or f'contact_{i}'
-        if name in seen:
-            raise InvalidMessageError(f'{field}.name must be unique, got {name!r} twice')
-        seen.add(name)
-        contacts.append(_contact(
-            field, item.pose, transform, name=name, finger=item.finger or name,
-            model=_model(item.model, defaults, field),
-            friction=_number(item, 'friction_coefficient', defaults.friction, field),
-            torsional_friction=_number(
-                item, 'torsional_friction_coefficient', defaults.torsional_friction, field),
-            max_normal_force=_number(
-                item, 'max_normal_force', defaults.max_normal_force, field)))
-    return contacts
+    items = [(f'contacts[{i}]', item) for i, item in enumerate(message.contacts)]
+    names = [item.name or f'contact_{i}' for i, (_, item) in enumerate(items)]
+    for i, (field, _) in enumerate(items):
+        if names[i] in names[:i]:
+            raise InvalidMessageError(f'{field}.name must be unique, got {names[i]!r} twice')
+
+    def numbers(name, default):
+        return [_number(item, name, default, field) for field, item in items]
+
+    return _contact_set(
+        [pose_arrays(item.pose, f'{field}.pose') for field, item in items], transform,
+        models=[_model(item.model, defaults, field) for field, item in items],
+        friction=numbers('friction_coefficient', defaults.friction),
+        torsional_friction=numbers('torsional_friction_coefficient', defaults.torsional_friction),
+        max_normal_forces=numbers('max_normal_force', defaults.max_normal_force),
+        names=names, fingers=[item.finger or name for name, (_, item) in zip(names, items)])
 
 
-def _contact(field, pose, transform, **values):
-    position, rotation = pose_arrays(pose, field if 'poses' in field else f'{field}.pose')
+def _contact_set(poses, transform, **fields):
+    positions = np.array([position for position, _ in poses]).reshape(-1, 3)
+    rotations = np.array([rotation for _, rotation in poses]).reshape(-1, 3, 3)
     if transform is not None:
-        position, rotation = transform.R @ position + transform.p, transform.R @ rotation
+        positions, rotations = positions @ transform.R.T + transform.p, transform.R @ rotations
     try:
-        return Contact(position=position, rotation=rotation, **values)
+        return ContactSet(positions, rotations, **fields)
     except InvalidContactError as exc:
-        raise InvalidMessageError(f'{field}: {exc}') from exc
+        raise InvalidMessageError(str(exc)) from exc
 
 
 def _model(code, defaults, field):

@@ -3,11 +3,11 @@
 """Contact forces: core solutions to messages, finger on object."""
 
 import numpy as np
-from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
+from geometry_msgs.msg import WrenchStamped
 from std_msgs.msg import Header
 
 from grasp_quality_msgs.msg import ContactForce, ContactForceArray
-from msg_adapters.wrenches import to_point, to_vector, to_wrench
+from msg_adapters.wrenches import fill_xyz, to_wrench
 
 
 def force_array(header, grasp=None, forces=(), cone_usage=()):
@@ -30,12 +30,18 @@ def force_array(header, grasp=None, forces=(), cone_usage=()):
         in_object = np.einsum('kij,kj->ki', grasp.rotations, forces[:, :3])
         moments = grasp.rotations[:, :, 2] * forces[:, 3:]
         wrenches = np.concatenate([in_object, moments], axis=1)
-        message.forces = [
-            ContactForce(name=name, position=to_point(contact.position),
-                         normal=to_vector(contact.normal), wrench=to_wrench(wrench),
-                         cone_usage=float(usage))
-            for name, contact, wrench, usage in zip(
-                grasp.names, grasp.contacts, wrenches, cone_usage)]
+        rows = zip(grasp.names, grasp.positions.tolist(), grasp.rotations[:, :, 2].tolist(),
+                   wrenches.tolist(), cone_usage.tolist())
+        message.forces = [_contact_force(*row) for row in rows]
+    return message
+
+
+def _contact_force(name, position, normal, wrench, usage):
+    message = ContactForce()
+    message.name, message.cone_usage = name, usage
+    fill_xyz(message.position, position)
+    fill_xyz(message.normal, normal)
+    to_wrench(wrench, message.wrench)
     return message
 
 
@@ -46,7 +52,7 @@ def contact_frame_wrench(stamp, name, force=(0.0, 0.0, 0.0, 0.0)):
     frame_id is the contact's name; a zero wrench tells that there is no answer.
 
     """
-    t1, t2, n, m_n = (float(v) for v in force)
-    return WrenchStamped(
-        header=Header(stamp=stamp, frame_id=name),
-        wrench=Wrench(force=Vector3(x=t1, y=t2, z=n), torque=Vector3(x=0.0, y=0.0, z=m_n)))
+    t1, t2, n, m_n = force
+    message = WrenchStamped(header=Header(stamp=stamp, frame_id=name))
+    to_wrench((t1, t2, n, 0.0, 0.0, m_n), message.wrench)
+    return message

@@ -64,8 +64,8 @@ def test_a_wrong_number_of_poses_is_refused_with_the_way_out(count):
 
 @pytest.mark.parametrize('defaults', [DEFAULTS, ContactDefaults(names=('a', 'b'))])
 def test_no_contact_is_a_message_too(defaults):
-    assert contacts_from_poses(PoseArray(), defaults) == []
-    assert contacts_from_array(ContactArray(), defaults) == []
+    assert len(contacts_from_poses(PoseArray(), defaults)) == 0
+    assert len(contacts_from_array(ContactArray(), defaults)) == 0
 
 
 def test_zero_in_a_field_takes_the_default():

@@ -1,0 +1,124 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Many contacts as a structure of arrays: what a Grasp computes with and messages are read into.
+
+The same facts as a list of Contact objects, checked all at once: building eight Contact objects
+takes longer than solving their problem. Indexing gives a Contact.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from grasp_quality.arrays import checked, frozen
+from grasp_quality.contact import ROTATION_TOLERANCE, Contact, ContactModel
+from grasp_quality.exceptions import InvalidContactError
+from grasp_quality.wrench import cross
+
+
+@dataclass(frozen=True, eq=False)
+class ContactSet(Sequence):
+    """
+    Contacts in the object frame; each row is one contact.
+
+    Parameters
+    ----------
+    positions : (k, 3) array_like [m]
+    rotations : (k, 3, 3) array_like
+        R_object_contact; columns t1, t2, inward normal.
+    models : sequence of ContactModel
+    friction, torsional_friction, max_normal_forces : (k,) array_like [-], [m], [N]
+    names, fingers : sequences of str
+
+    Raises
+    ------
+    InvalidContactError
+        Names the first contact that breaks a rule.
+
+    """
+
+    positions: np.ndarray
+    rotations: np.ndarray
+    models: tuple
+    friction: np.ndarray
+    torsional_friction: np.ndarray
+    max_normal_forces: np.ndarray
+    names: tuple
+    fingers: tuple
+
+    def __post_init__(self):
+        """Validate and copy."""
+        k = len(self.names)
+        for field, shape in (('positions', (k, 3)), ('rotations', (k, 3, 3)), ('friction', (k,)),
+                             ('torsional_friction', (k,)), ('max_normal_forces', (k,))):
+            object.__setattr__(
+                self, field, checked(getattr(self, field), shape, field, InvalidContactError))
+        for field in ('models', 'names', 'fingers'):
+            object.__setattr__(self, field, tuple(getattr(self, field)))
+            if len(getattr(self, field)) != k:
+                raise InvalidContactError(f'{field} must have one entry for each of {k} contacts')
+        if k:
+            self._check()
+
+    def _check(self):
+        R = self.rotations
+        skew = np.abs(R.transpose(0, 2, 1) @ R - np.eye(3)).max(axis=(1, 2))
+        handed = (cross(R[:, :, 0], R[:, :, 1]) * R[:, :, 2]).sum(axis=1)
+        self._refuse((skew > ROTATION_TOLERANCE) | (handed < 0.0), 'rotation must be a '
+                     'right-handed orthonormal matrix (columns t1, t2, inward normal)')
+        self._refuse(self.friction < 0.0, 'friction must be at least 0')
+        self._refuse(self.torsional_friction < 0.0, 'torsional_friction must be at least 0')
+        self._refuse(self.max_normal_forces <= 0.0, 'max_normal_force must be greater than 0')
+        self._refuse([not isinstance(m, ContactModel) for m in self.models],
+                     f'model must be one of {[str(m) for m in ContactModel]}')
+
+    def _refuse(self, broken, rule):
+        for i in np.flatnonzero(broken)[:1]:
+            raise InvalidContactError(
+                f'contact {i} ({self.names[i]!r}): {rule}, got model {self.models[i]}, friction '
+                f'{self.friction[i]:g}, torsional_friction {self.torsional_friction[i]:g}, '
+                f'max_normal_force {self.max_normal_forces[i]:g}, '
+                f'rotation {self.rotations[i].tolist()}')
+
+    @classmethod
+    def of(cls, contacts):
+        """Stack Contact objects."""
+        return cls(
+            np.array([c.position for c in contacts]).reshape(-1, 3),
+            np.array([c.rotation for c in contacts]).reshape(-1, 3, 3),
+            [c.model for c in contacts], [c.friction for c in contacts],
+            [c.torsional_friction for c in contacts], [c.max_normal_force for c in contacts],
+            [c.name for c in contacts], [c.finger for c in contacts])
+
+    def subset(self, indices):
+        """Return the contacts at these indices, in their order, as another ContactSet."""
+        rows = list(indices)
+        return ContactSet(
+            self.positions[rows], self.rotations[rows], [self.models[i] for i in rows],
+            self.friction[rows], self.torsional_friction[rows], self.max_normal_forces[rows],
+            [self.names[i] for i in rows], [self.fingers[i] for i in rows])
+
+    @property
+    def effective_friction(self):
+        """Coulomb coefficients (k,) [-] that the models let act: 0 for FPC."""
+        return frozen(self.friction * [m is not ContactModel.FPC for m in self.models])
+
+    @property
+    def effective_torsional_friction(self):
+        """Torsional coefficients (k,) [m] that the models let act: 0 but for SFCE."""
+        return frozen(self.torsional_friction * [m is ContactModel.SFCE for m in self.models])
+
+    def __len__(self):
+        """Count the contacts."""
+        return len(self.names)
+
+    def __getitem__(self, index):
+        """Return one contact as a Contact."""
+        return Contact(
+            position=self.positions[index], rotation=self.rotations[index],
+            model=self.models[index], friction=self.friction[index],
+            torsional_friction=self.torsional_friction[index],
+            max_normal_force=self.max_normal_forces[index], name=self.names[index],
+            finger=self.fingers[index])
