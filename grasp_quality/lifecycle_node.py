@@ -31,6 +31,7 @@ from msg_adapters.errors import NotActiveError
 from msg_adapters.results import error_result
 
 WATCH_SHARE = 0.25  # of max_contact_age between two looks of the watchdog
+FLUSH_S = 0.5       # longest wait for subscribers to have the last word
 
 
 class GraspQualityNode(LifecycleNode):
@@ -159,8 +160,9 @@ class GraspQualityNode(LifecycleNode):
         return super().on_shutdown(state)
 
     def silence(self, reason):
-        """Publish NOT_ACTIVE with empty forces, and stop computing."""
+        """Publish NOT_ACTIVE with empty forces, see it delivered, and stop computing."""
         if self.active:
             self._outputs.publish_failure(error_result(NotActiveError(reason)))
+            self._outputs.flush(FLUSH_S)
         self.active = False
         self._inputs.clear()

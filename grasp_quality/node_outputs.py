@@ -8,8 +8,10 @@ a zero wrench: nothing that was published before stays in force by silence.
 """
 
 import re
+import time
 
 from geometry_msgs.msg import WrenchStamped
+from rclpy.duration import Duration
 from std_msgs.msg import Float64, Header
 
 from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode
@@ -57,6 +59,14 @@ class Outputs:
         if stamp is not None:
             header.stamp = stamp
         self.publish(GraspQuality(header=header, result=result, **fields))
+
+    def flush(self, timeout_s):
+        """Wait until all subscribers have what was published: destroying a publisher drops it."""
+        deadline = time.monotonic() + timeout_s
+        for publisher in (self._forces, self._quality, self._alpha, *self._wrenches.values()):
+            left = deadline - time.monotonic()
+            if publisher is not None and left > 0.0:
+                publisher.wait_for_all_acked(Duration(seconds=left))
 
     def _publish_wrenches(self, stamp, forces):
         for name in forces:
