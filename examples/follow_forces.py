@@ -1,0 +1,59 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Follow the contact forces of the live loop as a controller must: safe whenever they do not hold.
+
+With a node running that has a task and gets contacts (make demo DEMO_FLAGS=--keep):
+
+    python3 examples/follow_forces.py
+
+Forces hold while they are not empty and the contacts behind them are not old. Any failure of the
+node empties them, its silence makes them old, and so does a sensor that stops: one rule for all.
+
+"""
+
+from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.time import Time
+
+
+class FollowForces(Node):
+    """Decides 100 times a second between the newest forces and safety."""
+
+    def __init__(self):
+        super().__init__('follow_forces')
+        self._max_age_s = self.declare_parameter('max_age', 0.1).value
+        self._array, self._result, self._told = ContactForceArray(), ResultCode(), ''
+        self.create_subscription(
+            ContactForceArray, 'grasp_quality/contact_forces', self._store_forces, 1)
+        self.create_subscription(GraspQuality, 'grasp_quality/quality', self._store_result, 1)
+        self.create_timer(0.01, self._control)
+
+    def _store_forces(self, message):
+        self._array = message
+
+    def _store_result(self, message):
+        self._result = message.result
+
+    def _control(self):
+        age = self.get_clock().now() - Time.from_msg(self._array.header.stamp)
+        if self._result.code != ResultCode.OPTIMAL or not self._array.forces:
+            self._tell('safe', self._result.message or 'there are no forces')
+        elif abs(age.nanoseconds) > 1e9 * self._max_age_s:
+            self._tell('safe', f'the contacts are {1e-9 * age.nanoseconds:.2f} s old')
+        else:  # here a controller takes tau = J^T f
+            self._tell('follow', ', '.join(item.name for item in self._array.forces))
+
+    def _tell(self, mode, why):
+        if mode != self._told:
+            print(f'{mode}: {why}', flush=True)
+        self._told = mode
+
+
+rclpy.init()
+try:
+    rclpy.spin(FollowForces())
+except (KeyboardInterrupt, ExternalShutdownException):
+    pass

@@ -1,0 +1,94 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""The examples, run as a user would run them."""
+
+from pathlib import Path
+import sys
+
+from geometry_msgs.msg import PoseArray
+from grasp_quality_msgs import srv
+from grasp_quality_msgs.msg import ResultCode
+from grasps import ANTIPODAL, pose_array, wrench
+from harness import BEST_EFFORT, Process
+import pytest
+
+EXAMPLES = Path(__file__).parents[2] / 'examples'
+
+
+@pytest.fixture(scope='module')
+def node(start):
+    return start(max_contact_age='0.5', task_wrench='[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]')
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Return a function that starts an example in a namespace; all are ended behind the test."""
+    begun = []
+
+    def begin(name, namespace, *arguments):
+        begun.append(Process(
+            [sys.executable, EXAMPLES / name, '--ros-args', '-r', f'__ns:={namespace}',
+             *arguments], tmp_path / f'{len(begun)}.txt'))
+        return begun[-1]
+
+    yield begin
+    for process in begun:
+        if process.popen.poll() is None:
+            process.end()
+
+
+def test_evaluate_grasp_prints_the_answer(node, run):
+    """Two fingers with mu = 0.5 and caps of 10 N hold five times 2 N."""
+    process = run('evaluate_grasp.py', node.namespace)
+    assert process.wait() == 0, process.log()
+    first, left, right = process.log().splitlines()
+    assert first.startswith('alpha = 5.0000 times the weight')
+    assert left.startswith('left: +10.000') and '+5.000 N' in left and '100 %' in left
+    assert right.startswith('right: -10.000') and '+5.000 N' in right
+
+
+def test_evaluate_grasp_says_why_there_is_no_answer(start, run):
+    process = run('evaluate_grasp.py', start(autostart='false').namespace)
+    assert process.wait() == 1
+    assert process.log().startswith('no answer: the node is not active')
+    process = run('evaluate_grasp.py', '/nobody')
+    assert process.wait() == 1
+    assert 'is grasp_quality_node running?' in process.log()
+
+
+def test_follow_forces_is_safe_unless_the_forces_hold(node, run):
+    client = node.client
+    publisher = client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
+    process = run('follow_forces.py', node.namespace, '-p', 'max_age:=0.5')
+
+    def feed():
+        publisher.publish(pose_array(ANTIPODAL, client.now()))
+
+    def told(words, feed):
+        seen = len(process.log())
+        client.until(lambda: words in process.log()[seen:], words, feed)
+
+    client.until(lambda: 'safe: ' in process.log(), 'safety at the start')
+    told('follow: contact_0, contact_1', feed)
+    told('safe: ', None)
+    told('follow: ', feed)
+    client.call(srv.SetTask, 'set_task', feed, kind=1, task_wrench=wrench(fy=1.0),
+                external_wrench=wrench(fz=-11.0))
+    told('safe: no contact forces inside the friction cones', feed)
+    answer = client.call(srv.SetTask, 'set_task', feed, kind=1, task_wrench=wrench(fy=1.0))
+    assert answer.result.code == ResultCode.OPTIMAL
+    told('follow: ', feed)
+    assert process.end() == 0, process.log()
+
+
+def test_follow_forces_is_safe_when_the_node_is_gone(start, run):
+    node = start(max_contact_age='5.0', task_wrench='[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]')
+    client = node.client
+    publisher = client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
+    process = run('follow_forces.py', node.namespace, '-p', 'max_age:=0.5')
+    client.until(lambda: 'follow: ' in process.log(), 'following', lambda: publisher.publish(
+        pose_array(ANTIPODAL, client.now())))
+    seen = len(process.log())
+    node.process.popen.kill()
+    node.process.popen.wait()
+    client.until(lambda: 'safe: the contacts are' in process.log()[seen:], 'safety')

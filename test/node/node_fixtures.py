@@ -1,0 +1,47 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fixtures of all tests that start nodes, and the environment they need before ROS is imported."""
+
+import itertools
+import os
+from types import SimpleNamespace
+
+import pytest
+
+os.environ.update({
+    'ROS_PYTHON_CHECK_FIELDS': '1', 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+    'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'})
+
+NUMBERS = itertools.count()
+
+
+@pytest.fixture(scope='session', autouse=True)
+def ros_log_dir(tmp_path_factory):
+    """Keep the log files of ROS out of the home directory."""
+    os.environ['ROS_LOG_DIR'] = str(tmp_path_factory.mktemp('ros'))
+
+
+@pytest.fixture(scope='module')
+def start(tmp_path_factory):
+    """Start nodes with parameters; each has a namespace, a process and a client."""
+    from harness import Client, start_node
+
+    begun = []
+
+    def begin(*arguments, **parameters):
+        namespace = f'/hand_{next(NUMBERS)}'
+        log = tmp_path_factory.mktemp('node') / 'log.txt'
+        process = start_node(log, namespace, *arguments, **parameters)
+        # a participant that is there before the node's endpoints are learns of them 2 s later
+        process.until_it_says('active')
+        begun.append(SimpleNamespace(
+            namespace=namespace, process=process, client=Client(namespace)))
+        return begun[-1]
+
+    yield begin
+    for node in begun:
+        node.client.close()
+        if node.process.popen.poll() is None:
+            assert node.process.end() == 0, node.process.log()
+        assert 'internal error' not in node.process.log()
+        assert 'Traceback' not in node.process.log()
