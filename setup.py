@@ -18,7 +18,7 @@ setup(
         (f'share/{NAME}/config', sorted(glob('config/*'))),
         (f'share/{NAME}/launch', sorted(glob('launch/*.launch.py'))),
     ],
-    install_requires=['setuptools', 'numpy', 'scipy', 'clarabel'],
+    install_requires=['setuptools', 'numpy', 'scipy', 'numba', 'clarabel'],
     extras_require={'reference': ['cvxpy'], 'test': ['pytest', 'hypothesis', 'cvxpy']},
     zip_safe=True,
     author='The grasp_quality authors',

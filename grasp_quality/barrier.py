@@ -15,7 +15,7 @@ import dataclasses
 
 import numpy as np
 
-from grasp_quality import friction_cone
+from grasp_quality import friction_cone, kernel_solver
 from grasp_quality.arrays import frozen
 from grasp_quality.bounds import gauge, support
 from grasp_quality.centering import weighted_center
@@ -25,7 +25,9 @@ from grasp_quality.proof import GAP_TOLERANCE, prove
 from grasp_quality.solution import Status
 from grasp_quality.solve import prove_optimal, task_share
 
-NEXT_TO_NOTHING = 1e-11    # weight, over max(1, eps), of the cones that eq. (11) gives none
+# weights of what eq. (11) gives none; a cone's edge is only as sharp as rounding, which goes by eps
+NO_WEIGHT_LINE = 1e-13
+NO_WEIGHT_CONE = 1e-9
 NEGLIGIBLE = 1e-8          # share of a0 below which the task counts as not served at all
 INTERIOR_TOLERANCE = 1e-8  # share of the caps below which a force is not strictly inside
 CONE_GENERATORS = 16       # of a task cone, where only its polyhedral inside can be asked
@@ -61,7 +63,7 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
     if center is not None:
         shares, values, multipliers = center
         forces = frozen(shares * grasp.force_units)
-        proof = prove(problem, forces, values, multipliers)
+        proof = prove(problem, shares, values, multipliers)
         objective = values[0] + eps * _log_det(grasp, shares).sum()
         upper = objective_upper(problem, multipliers, eps, solution.proof)
         gap = (upper - objective) / max(values[0], eps, 1e-3 * proof.size)
@@ -70,8 +72,7 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
             return dataclasses.replace(
                 solution, alpha=alpha, alpha_lower=min(solution.alpha_lower, alpha),
                 forces=forces, wrench=wrench,
-                cone_usage=frozen(friction_cone.usage(
-                    forces, grasp.scales, grasp.max_normal_forces)),
+                cone_usage=frozen(friction_cone.usage_of_shares(shares)),
                 proof=dataclasses.replace(
                     proof, objective=float(objective), upper=float(upper),
                     size=max(eps, proof.size)),
@@ -82,6 +83,10 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
     raise SolverError(
         f'no answer could be proved at barrier_weight {barrier_weight:g}: choose another weight, '
         'or 0', problem, 'centering failed' if center is None else f'gap {gap:.2g}, {proof}')
+
+
+def _frictional(grasp):
+    return (grasp.scales[:, (0, 1, 3)] > 0.0).any(axis=1)
 
 
 def _log_det(grasp, shares):
@@ -95,25 +100,41 @@ def _center(problem, eps, with_task):
     A task that cannot be served at all leaves alpha no interior, and is left out: alpha is 0.
 
     """
-    layout, grasp = problem.layout, problem.grasp
+    grasp = problem.grasp
+    found = None
+    if with_task and kernel_solver.handles(problem):
+        weights = np.where(_frictional(grasp), 1.0, 0.5) * eps
+        answer = kernel_solver.run(problem, weights=weights)
+        if answer.solved:
+            found = answer.shares, answer.values, answer.multipliers
+    found = found or _general_center(problem, eps, with_task)
+    if found is None:
+        return None
+    shares, values, multipliers = found
+    excess = max(1.0, gauge(shares[:, 2], grasp.bound, grasp.groups))
+    return shares / excess, values, multipliers
+
+
+def _general_center(problem, eps, with_task):
+    """Weighted centre of any problem, by ``centering``."""
+    layout = problem.layout
     blocks = layout.blocks  # (blocks, d), -1 where padded
     if not with_task:
         blocks = blocks[~np.isin(blocks[:, 0], layout.virtual)]
     padded = blocks < 0
     E = np.where(padded, 0.0, problem.E[:, blocks])
     c = np.where(padded, 0.0, problem.c[blocks])
+    is_line = padded[:, 1:].all(axis=1)
     # the logarithm of a half line is half of its log det as a cone
-    is_contact = np.isin(blocks[:, 0], layout.contact_variables)
-    weights = np.where(is_contact, eps * np.where(padded[:, 1:].all(axis=1), 0.5, 1.0),
-                       NEXT_TO_NOTHING * max(1.0, eps))
+    weights = np.where(
+        np.isin(blocks[:, 0], layout.contact_variables), np.where(is_line, 0.5, 1.0) * eps,
+        np.where(is_line, NO_WEIGHT_LINE, NO_WEIGHT_CONE * max(1.0, eps)))
     found = weighted_center(E, problem.e, c, weights)
     if found is None:
         return None
     u = np.zeros(layout.shape[1])
     u[blocks[~padded]] = found[0][~padded]
-    shares, values = layout.shares(u), u[layout.virtual]
-    excess = max(1.0, gauge(shares[:, 2], grasp.bound, grasp.groups))
-    return shares / excess, values, found[1]
+    return layout.shares(u), u[layout.virtual], found[1]
 
 
 def objective_upper(problem, multipliers, eps, proof):
@@ -147,7 +168,7 @@ def objective_upper(problem, multipliers, eps, proof):
     s = nu - h[:, 2]
     if not (s > rest).all():
         return np.inf
-    frictional = (grasp.scales[:, (0, 1, 3)] > 0.0).any(axis=1)
+    frictional = _frictional(grasp)
     each = np.where(frictional, np.log(4.0 * eps ** 2 / ((s - rest) * (s + rest))) - 2.0,
                     np.log(eps / s) - 1.0)
     return (support(nu, grasp.bound, grasp.groups) + lambda_ @ problem.scaled_external_wrench

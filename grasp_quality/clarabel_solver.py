@@ -10,7 +10,6 @@ factor than one column a force (docs/decisions.md). Whatever Clarabel throws, it
 leaves here as a SolverError with the problem attached.
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 
 import clarabel
@@ -18,6 +17,7 @@ import numpy as np
 from scipy.sparse import csc_matrix
 
 from grasp_quality.exceptions import SolverError, SolverTimeoutError
+from grasp_quality.raw_answer import RawAnswer
 
 # (gap, feasibility, static regularisation, equilibration), tried in order until the proof holds; the
 # first is met by 99 of 100 problems, the others by what it leaves (docs/decisions.md)
@@ -27,26 +27,6 @@ ATTEMPTS = (
     (3e-8, 3e-9, 1e-8, False),
     (1e-10, 1e-9, 1e-8, True))
 CONES = {'nonnegative': clarabel.NonnegativeConeT, 'second_order': clarabel.SecondOrderConeT}
-
-
-@dataclass(frozen=True, eq=False)
-class RawAnswer:
-    """
-    What Clarabel said.
-
-    ``u`` (variables,) and ``multipliers`` (equations,) are its last iterate, or its certificate;
-    ``status`` is its own word.
-
-    """
-
-    u: np.ndarray
-    multipliers: np.ndarray
-    status: str
-
-    @property
-    def solved(self):
-        """Whether Clarabel met its tolerances; almost solved is not solved."""
-        return self.status == 'Solved'
 
 
 def run(problem, attempt=0, time_limit_s=None):
@@ -74,13 +54,14 @@ def run(problem, attempt=0, time_limit_s=None):
     matrix = csc_matrix(
         (-problem.equation_values, problem.layout.row_columns, problem.layout.row_starts),
         shape=(variables, rows))
-    return run_matrices(
+    u, multipliers, status = run_matrices(
         _zeros(rows), problem.e, matrix, -problem.c, _cones(problem.cones),
         _settings(attempt, time_limit_s), problem)
+    return RawAnswer(problem.layout.shares(u), u[problem.layout.virtual], multipliers, status)
 
 
 def run_matrices(P, q, A, b, cones, settings, problem):
-    """Hand matrices to Clarabel; ``problem`` is what a SolverError carries."""
+    """Hand matrices to Clarabel for (z, x, status); ``problem`` is what a SolverError carries."""
     try:
         solution = clarabel.DefaultSolver(P, q, A, b, cones, settings).solve()
     except (KeyboardInterrupt, SystemExit):
@@ -91,7 +72,7 @@ def run_matrices(P, q, A, b, cones, settings, problem):
     if status == 'MaxTime':
         raise SolverTimeoutError(
             'the solver reached its time limit; raise it or ask for less', problem, status)
-    return RawAnswer(np.array(solution.z), np.array(solution.x), status)
+    return np.array(solution.z), np.array(solution.x), status
 
 
 @lru_cache(maxsize=256)

@@ -50,13 +50,29 @@ def usage(forces, scales, max_normal_force, unloaded=UNLOADED):
         solver leaves on a contact that it does not need points anywhere.
 
     """
-    norm = tangential_norm(forces, scales)
-    normal = forces[:, 2]
+    norm, normal = tangential_norm(forces, scales), forces[:, 2]
+    return _share(norm, normal, unloaded * max_normal_force)
+
+
+def usage_of_shares(shares, unloaded=UNLOADED):
+    """
+    Share of the friction cone in use, (k,), as ``usage``.
+
+    Parameters
+    ----------
+    shares : (k, 4) array
+        [t1/mu, t2/mu, n, m_n/gamma] / f_max, with zeros where a contact carries nothing.
+
+    """
+    t1, t2, normal, moment = shares.T
+    return _share(np.sqrt(t1 * t1 + t2 * t2 + moment * moment), normal, unloaded)
+
+
+def _share(norm, normal, small):
     with np.errstate(divide='ignore', invalid='ignore'):
         share = np.where(normal > 0.0, norm / normal, np.inf)
-    small = unloaded * max_normal_force
-    idle = (np.abs(normal) <= small) & (norm <= small)
-    return np.where(idle | ((norm == 0.0) & (normal >= 0.0)), 0.0, share)
+    idle = ((np.abs(normal) <= small) & (norm <= small)) | ((norm == 0.0) & (normal >= 0.0))
+    return np.where(idle, 0.0, share)
 
 
 def support(local_wrench, scales):

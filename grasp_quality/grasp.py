@@ -130,6 +130,21 @@ class Grasp:
         return frozen(G)
 
     @cached_property
+    def blocks(self):
+        """
+        Scaled grasp matrix as the kernel takes it.
+
+        Returns
+        -------
+        (k, 4, 6) array of rows n, t1, t2, m_n a contact; (k, 6, 6) array -G J G^T of each block;
+        (k,) int array of groups
+
+        """
+        G = np.ascontiguousarray(self.scaled_matrix[:, :, (2, 0, 1, 3)].transpose(1, 2, 0))
+        signed = G * np.array([-1.0, 1.0, 1.0, 1.0])[:, None]
+        return G, G.transpose(0, 2, 1) @ signed, np.array(self.groups)
+
+    @cached_property
     def force_units(self):
         """Local forces (k, 4) [N, N, N, N m] that a share of one stands for."""
         return frozen(self.scales * self.max_normal_forces[:, None])

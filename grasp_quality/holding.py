@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from grasp_quality import friction_cone
+from grasp_quality.arrays import frozen
 from grasp_quality.grasp import Grasp
 from grasp_quality.problem import VirtualContact, assemble
 from grasp_quality.proof import USAGE_TOLERANCE
@@ -98,10 +99,9 @@ def minimum_forces(grasp, external_wrench, time_limit_s=None):
     if peak > 1.0 + USAGE_TOLERANCE:
         return MinimumForces(grasp, Status.INFEASIBLE, NO_FORCES, peak, lower,
                              violation(grasp, load, time_limit_s), NO_USAGE)
-    forces = optimum.forces * size
     return MinimumForces(
-        grasp, Status.OPTIMAL, forces, peak, lower, 0.0,
-        friction_cone.usage(forces, grasp.scales, grasp.max_normal_forces * peak))
+        grasp, Status.OPTIMAL, frozen(optimum.shares * grasp.force_units * size), peak, lower, 0.0,
+        frozen(friction_cone.usage_of_shares(optimum.shares * (size / peak))))
 
 
 def violation(grasp, external_wrench, time_limit_s=None):

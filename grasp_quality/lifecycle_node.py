@@ -16,15 +16,12 @@ from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 
 from grasp_quality import node_parameters as parameters
-from grasp_quality.contact import Contact, ContactModel
-from grasp_quality.grasp import Grasp
-from grasp_quality.measures import evaluate
 from grasp_quality.node_diagnostics import PERIOD_S, Monitor
 from grasp_quality.node_inputs import Inputs
 from grasp_quality.node_live import LiveLoop
 from grasp_quality.node_outputs import Outputs
 from grasp_quality.node_services import Services
-from grasp_quality.task import TaskWrench
+from grasp_quality.warm_up import warm_up
 from grasp_quality_msgs.msg import ContactArray
 from msg_adapters import qos
 from msg_adapters.errors import NotActiveError
@@ -136,11 +133,7 @@ class GraspQualityNode(LifecycleNode):
 
     def on_configure(self, state):
         """Warm up: the first query after activation shall be as fast as the thousandth."""
-        for model in ContactModel:
-            contacts = [Contact((x, 0.0, 0.0), (-x, 0.0, 0.0), model, torsional_friction=0.005)
-                        for x in (-0.03, 0.03)]
-            evaluate(Grasp(contacts, self.settings.force_bound), TaskWrench([1, 0, 0, 0, 0, 0]),
-                     [0, 0, -0.1, 0, 0, 0], 1e-3)
+        warm_up(self.settings.force_bound)
         return super().on_configure(state)
 
     def on_activate(self, state):

@@ -47,9 +47,13 @@ class Outputs:
         optimal = quality.result.code == ResultCode.OPTIMAL
         if not optimal:
             grasp, forces, cone_usage = None, (), ()
-        self._forces.publish(force_array(quality.header, grasp, forces, cone_usage))
-        self._quality.publish(quality)
-        self._alpha.publish(Float64(data=quality.alpha if optimal else 0.0))
+        # nothing is latched, so that building a message for nobody would only cost time
+        if self._forces.get_subscription_count():
+            self._forces.publish(force_array(quality.header, grasp, forces, cone_usage))
+        if self._quality.get_subscription_count():
+            self._quality.publish(quality)
+        if self._alpha.get_subscription_count():
+            self._alpha.publish(Float64(data=quality.alpha if optimal else 0.0))
         self._publish_wrenches(
             quality.header.stamp, dict(zip(grasp.names, forces)) if optimal else {})
 

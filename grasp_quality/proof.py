@@ -78,15 +78,15 @@ class Proof:
                 f'use of the bound {self.bound_usage:.12g}')
 
 
-def prove(problem, forces, values, multipliers):
+def prove(problem, shares, values, multipliers):
     """
     Judge an answer.
 
     Parameters
     ----------
     problem : ConicProblem
-    forces : (k, 4) array [N, N, N, N m]
-        Local contact forces.
+    shares : (k, 4) array
+        Local contact forces [t1/mu, t2/mu, n, m_n/gamma] as shares of the caps.
     values : (t,) array
         Variables of the virtual contact.
     multipliers : (equations,) array
@@ -116,7 +116,6 @@ def prove(problem, forces, values, multipliers):
     with np.errstate(invalid='ignore'):
         upper, multipliers, per_contact = upper * scale, multipliers * scale, per_contact * scale
 
-    shares = grasp.shares(forces)
     balance = (grasp.scaled_matrix.reshape(6, -1) @ shares.ravel()
                + problem.scaled_external_wrench)
     widening = virtual.role == 'widening'
@@ -130,8 +129,7 @@ def prove(problem, forces, values, multipliers):
     return Proof(
         objective=float(virtual.objective @ values), upper=float(upper),
         residual=float(np.sqrt(balance @ balance)) / size_of_forces,
-        usage=float(friction_cone.usage(
-            forces, grasp.scales, grasp.max_normal_forces, unloaded=ROUNDING).max()),
+        usage=float(friction_cone.usage_of_shares(shares, unloaded=ROUNDING).max()),
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
         multiplier=frozen(multipliers), bound_multiplier=frozen(per_contact),
         size=1.0 if virtual.role != 'task' else problem.reach)

@@ -3,7 +3,7 @@
 """
 Solve: a conic program to an answer with its proof.
 
-``prove_optimal`` runs the solver until its answer passes the proof or proves infeasibility; an
+``prove_optimal`` runs solvers until an answer passes the proof or proves infeasibility; an
 answer that does neither, "almost solved" included, is a SolverError. ``solve`` turns that into the
 Solution of a task.
 """
@@ -12,7 +12,7 @@ import dataclasses
 
 import numpy as np
 
-from grasp_quality import clarabel_solver, friction_cone
+from grasp_quality import clarabel_solver, friction_cone, kernel_solver
 from grasp_quality.arrays import frozen
 from grasp_quality.bounds import gauge
 from grasp_quality.exceptions import SolverError
@@ -26,13 +26,13 @@ NO_WRENCH = frozen(np.zeros(6))
 @dataclasses.dataclass(frozen=True, eq=False)
 class Optimum:
     """
-    A proved answer in physical forces.
+    A proved answer.
 
-    ``forces`` (k, 4) [N, N, N, N m], ``values`` (t,) of the virtual contact, ``proof``.
+    ``shares`` (k, 4) of the contacts' caps, ``values`` (t,) of the virtual contact, ``proof``.
 
     """
 
-    forces: np.ndarray
+    shares: np.ndarray
     values: np.ndarray
     proof: object
 
@@ -57,8 +57,7 @@ def prove_optimal(problem, time_limit_s=None):
 
     """
     said = []
-    for attempt in range(len(clarabel_solver.ATTEMPTS)):
-        answer = clarabel_solver.run(problem, attempt, time_limit_s)
+    for answer in _answers(problem, time_limit_s):
         if answer.solved:
             optimum = _optimum(problem, answer)
             if optimum.proof.holds:
@@ -73,10 +72,17 @@ def prove_optimal(problem, time_limit_s=None):
         'no answer could be proved; the solver said: ' + '; '.join(said), problem, said[-1])
 
 
+def _answers(problem, time_limit_s):
+    """Ask one solver after the other: the kernel where it knows the problem, then Clarabel."""
+    if kernel_solver.handles(problem):
+        yield kernel_solver.run(problem, time_limit_s)
+    for attempt in range(len(clarabel_solver.ATTEMPTS)):
+        yield clarabel_solver.run(problem, attempt, time_limit_s)
+
+
 def _optimum(problem, answer):
     grasp, role = problem.grasp, problem.virtual.role
-    values = answer.u[problem.layout.virtual]
-    shares = problem.layout.shares(answer.u)
+    values, shares = answer.values, answer.shares
     # the solver holds the equations to its tolerance only; the bound shall hold exactly
     pressed = shares[:, 2] + (values[0] if role == 'pressing' else 0.0)
     used = gauge(pressed, grasp.bound, grasp.groups)
@@ -86,8 +92,7 @@ def _optimum(problem, answer):
         shares = shares / used
         if role == 'pressing' or not problem.external_wrench.any():
             values = values / used
-    forces = frozen(shares * grasp.force_units)
-    return Optimum(forces, values, prove(problem, forces, values, answer.multipliers))
+    return Optimum(shares, values, prove(problem, shares, values, answer.multipliers))
 
 
 def solve(problem, time_limit_s=None):
@@ -122,16 +127,15 @@ def solve(problem, time_limit_s=None):
     # without a load only alpha = 0 can come of a wrench that the grasp does not span
     suspect = loaded or alpha <= GAP_TOLERANCE * proof.size * unit
     pinned = suspect and not virtual.is_cone and not grasp.spans(virtual.wrenches[0])
+    forces = frozen(optimum.shares * grasp.force_units)
     return kind(
         grasp=grasp, status=Status.OPTIMAL, alpha=alpha,
         alpha_upper=max(proof.upper * unit, alpha), alpha_lower=lower, holdable=holdable,
         pinned=pinned, wrench=wrench,
-        forces=optimum.forces,
-        cone_usage=frozen(friction_cone.usage(
-            optimum.forces, grasp.scales, grasp.max_normal_forces)),
+        forces=forces, cone_usage=frozen(friction_cone.usage_of_shares(optimum.shares)),
         proof=proof, multiplier=dimensional_multiplier(problem, proof.multiplier),
         bound_multiplier=frozen(proof.bound_multiplier * unit),
-        reference_forces=optimum.forces)
+        reference_forces=forces)
 
 
 def task_share(problem, values, alpha_upper):

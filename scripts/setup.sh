@@ -64,4 +64,13 @@ if [ "$wanted" != "$(cat install/stamp 2>/dev/null)" ]; then
     must 'Build the packages with colcon' build
     echo "$wanted" >install/stamp
 fi
+compiled_of() { # numba caches machine code beside the source; see grasp_quality/kernel.py
+    cat "$venv/stamp" grasp_quality/kernel.py
+}
+
+wanted=$(compiled_of | sha256sum)
+if [ "$wanted" != "$(cat "$venv/compiled" 2>/dev/null)" ]; then
+    must 'Compile the kernel' "$venv/bin/python" -m grasp_quality.warm_up
+    echo "$wanted" >"$venv/compiled"
+fi
 printf 'ready after %d s: enter with  . ./env.sh\n' $((SECONDS - started))

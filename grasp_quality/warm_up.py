@@ -1,0 +1,26 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Run every kind of solve once, so that the first real query is as fast as the thousandth.
+
+Compiles the kernel on a machine that has not run it yet (about half a minute, kept in numba's
+cache beside the source). ``python -m grasp_quality.warm_up`` does the same from a shell.
+"""
+
+from grasp_quality.contact import Contact, ContactModel
+from grasp_quality.grasp import Grasp
+from grasp_quality.measures import evaluate
+from grasp_quality.task import TaskWrench
+
+
+def warm_up(bound='linf'):
+    """Solve a small grasp of every contact model, with a load and with a barrier weight."""
+    for model in ContactModel:
+        contacts = [Contact((x, 0.0, 0.0), (-x, 0.0, 0.0), model, torsional_friction=0.005,
+                            finger=f'finger at {x}') for x in (-0.03, 0.03)]
+        evaluate(Grasp(contacts, bound), TaskWrench([1, 0, 0, 0, 0, 0]), [0, 0, -0.1, 0, 0, 0],
+                 1e-3)
+
+
+if __name__ == '__main__':
+    warm_up()
