@@ -46,7 +46,9 @@ def weighted_center(E, e, c, weights):
 
     """
     blocks, d = E.shape[1:]
-    range_of_E, singular, E_flat = np.linalg.svd(E.reshape(len(e), -1), full_matrices=False)
+    flat = E.reshape(len(e), -1)
+    range_of_E, singular, E_flat = np.linalg.svd(flat, full_matrices=False)
+    E_flat[:, ~flat.any(axis=0)] = 0.0  # rounding in what is padded would grow from step to step
     kept = singular > RANK_TOLERANCE * singular[0]
     range_of_E, E_flat = range_of_E[:, kept], E_flat[kept]
     e = (range_of_E.T @ e) / singular[kept]

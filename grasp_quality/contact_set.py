@@ -4,7 +4,7 @@
 Many contacts as a structure of arrays: what a Grasp computes with and messages are read into.
 
 The same facts as a list of Contact objects, checked all at once: building eight Contact objects
-takes longer than solving their problem. Indexing gives a Contact.
+takes longer than solving their problem. Indexing gives a Contact, slicing a ContactSet.
 """
 
 from collections.abc import Sequence
@@ -115,7 +115,9 @@ class ContactSet(Sequence):
         return len(self.names)
 
     def __getitem__(self, index):
-        """Return one contact as a Contact."""
+        """Return one contact as a Contact, or a slice of them as a ContactSet."""
+        if isinstance(index, slice):
+            return self.subset(range(len(self))[index])
         return Contact(
             position=self.positions[index], rotation=self.rotations[index],
             model=self.models[index], friction=self.friction[index],

@@ -178,7 +178,8 @@ def _log_det(contact, x):
     if not carried:
         return cp.log(x[2])
     # n^2 - |part|^2 = n (n - |part|^2 / n), both factors concave
-    return cp.log(x[2]) + cp.log(x[2] - cp.quad_over_lin(cp.hstack(carried), x[2]))
+    # (the sum is over one term: quad_over_lin comes back with shape (1,) from some CVXPY)
+    return cp.log(x[2]) + cp.log(x[2] - cp.sum(cp.quad_over_lin(cp.hstack(carried), x[2])))
 
 
 def _bound(grasp, normals, size):

@@ -1,0 +1,121 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""Derivatives of alpha against central differences, on random grasps away from kinks."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from known_grasps import FX, FY, antipodal, single, three_finger
+from tolerances import SOLVER
+
+from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
+from grasp_quality import Contact, ContactModel, Grasp, TaskWrench, evaluate
+
+STEP = 1e-4
+AGREEMENT = 2e-4  # of the largest derivative: solver tolerance over step
+
+
+def problem(seed, bound):
+    """Grasp, task and load of a seed."""
+    rng = np.random.default_rng(seed)
+    grasp = random_grasp(rng, count=int(rng.integers(5, 9)), bound=bound)
+    return grasp, TaskWrench(grasp.wrench(
+        rng.uniform(0.3, 1.0, (len(grasp), 4)) * [0.2, 0.2, 1.0, 0.2] * grasp.scales)), (
+            random_load(rng, grasp))
+
+
+def central(f, size=1.0):
+    """Central difference of f(step) at zero."""
+    return (f(STEP * size) - f(-STEP * size)) / (2.0 * STEP * size)
+
+
+def with_field(grasp, i, field, step):
+    """Return the grasp with a field of contact i changed by a step."""
+    contacts = list(grasp.contacts)
+    contacts[i] = dataclasses.replace(
+        contacts[i], normal=None, **{field: getattr(contacts[i], field) + step})
+    return Grasp(contacts, grasp.bound)
+
+
+@pytest.mark.parametrize('seed', range(5))
+@pytest.mark.parametrize('bound', BOUNDS)
+def test_derivatives_agree_with_central_differences(bound, seed):
+    grasp, task, load = problem(seed, bound)
+    solution = evaluate(grasp, task, external_wrench=load)
+    assert solution.alpha > 1e-3
+
+    def alpha(g, w):
+        return evaluate(g, task, external_wrench=w).alpha
+
+    found = np.concatenate([
+        solution.dalpha_dexternal_wrench, solution.dalpha_dmax_force, solution.dalpha_dfriction])
+    expected = [central(lambda h: alpha(grasp, load + h * axis)) for axis in np.eye(6)]
+    for field in ('max_normal_force', 'friction'):
+        expected += [central(lambda h: alpha(with_field(grasp, i, field, h), load))
+                     for i in range(len(grasp))]
+    assert found == pytest.approx(np.array(expected), abs=AGREEMENT * np.abs(found).max())
+
+
+def test_antipodal_pair_by_hand():
+    solution = evaluate(antipodal(0.5), TaskWrench(FY))
+    assert solution.dalpha_dexternal_wrench @ FY == pytest.approx(1.0, rel=SOLVER)
+    # alpha = 2 mu f: each finger's friction gives n, both caps together 2 mu
+    assert solution.dalpha_dfriction.sum() == pytest.approx(2.0, rel=SOLVER)
+    assert solution.dalpha_dmax_force.sum() == pytest.approx(2 * 0.5, rel=SOLVER)
+    assert solution.limiting_reason == 'slip'
+
+
+def test_weaker_finger_limits_a_push():
+    solution = evaluate(antipodal(0.5, caps=(1.0, 0.3)), TaskWrench(-FX))
+    assert solution.limiting_contact == 'right'
+    assert solution.limiting_reason == 'cap'
+    assert solution.dalpha_dmax_force == pytest.approx([0.0, 1.0], abs=SOLVER)
+
+
+def test_weaker_finger_limits_a_lift():
+    solution = evaluate(antipodal(0.5, caps=(1.0, 0.3)), TaskWrench(FY))
+    assert solution.limiting_contact == 'right'
+    assert solution.limiting_reason == 'slip'
+
+
+def test_nothing_limits_where_nothing_helps():
+    solution = evaluate(single(), TaskWrench(FY))
+    assert solution.limiting_contact == '' and solution.limiting_reason == ''
+
+
+def test_caps_alone_fix_alpha_by_eulers_rule():
+    """Alpha is homogeneous of degree one in the caps and the load together."""
+    for bound in BOUNDS:
+        grasp, task, load = problem(11, bound)
+        solution = evaluate(grasp, task, external_wrench=load)
+        euler = (solution.dalpha_dmax_force @ grasp.max_normal_forces
+                 + solution.dalpha_dexternal_wrench @ load)
+        assert euler == pytest.approx(solution.alpha, rel=1e-5)
+
+
+def test_frictionless_contact_gains_from_its_first_friction_unless_its_model_has_none():
+    """At mu = 0 the derivative is one-sided: the force is not at the edge but at the tip."""
+    plain = tuple(three_finger(0.5).contacts)
+    for model, gains in ((ContactModel.PCWF, True), (ContactModel.FPC, False)):
+        smooth = dataclasses.replace(plain[0], normal=None, model=model, friction=0.0)
+        solution = evaluate(Grasp([smooth, *plain[1:]]), TaskWrench(-FX + 0.2 * FY))
+        forward = 0.0
+        if gains:
+            rough = dataclasses.replace(smooth, normal=None, friction=1e-4)
+            forward = (evaluate(Grasp([rough, *plain[1:]]), TaskWrench(-FX + 0.2 * FY)).alpha
+                       - solution.alpha) / 1e-4
+        assert solution.dalpha_dfriction[0] == pytest.approx(forward, abs=1e-3)
+
+
+def test_infeasible_has_no_sensitivity():
+    solution = evaluate(single(), TaskWrench(FX), external_wrench=-2.0 * FX)
+    assert not solution.dalpha_dexternal_wrench.any()
+    assert not solution.dalpha_dmax_force.any()
+    assert not solution.dalpha_dfriction.any()
+    assert solution.limiting_contact == ''
+
+
+def test_names_of_contacts_without_a_name():
+    grasp = Grasp([Contact(position=(0, 0, 0), normal=(1, 0, 0))])
+    assert evaluate(grasp, TaskWrench(FX)).limiting_contact == 'contact_0'
