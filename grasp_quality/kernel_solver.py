@@ -49,9 +49,10 @@ def run(problem, time_limit_s=None, weights=None):
     G, curvature, groups = grasp.blocks
     work, group = np.empty((k, 8, 4)), np.empty((max(grasp.groups) + 1, 8))
     multipliers = np.empty(6)
+    # copies: a read-only array is another type to numba, and would compile the kernel once more
     converged, alpha, _ = kernel.solve_wrench(
-        G, curvature, groups, np.ascontiguousarray(problem.virtual.columns[:, 0]),
-        problem.scaled_external_wrench, float(problem.virtual.objective[0]), problem.reach,
+        G, curvature, groups, problem.virtual.columns[:, 0].copy(),
+        problem.scaled_external_wrench.copy(), float(problem.virtual.objective[0]), problem.reach,
         np.zeros(k) if weights is None else weights, work, group, multipliers)
     if time_limit_s is not None and time.perf_counter() - started > time_limit_s:
         raise SolverTimeoutError(
