@@ -39,6 +39,17 @@ sys.exit(tuple(map(int, platform.libc_ver()[1].split("."))) < (2, 28))' 2>/dev/n
         die 'the ROS wheels need glibc 2.28 or newer; install ROS 2 Jazzy and run make setup again'
 }
 
+check_ros_libraries() { # check_ros_libraries <interpreter>: has the ROS what apt gives beside it?
+    command -v colcon >/dev/null ||
+        die 'colcon is missing: sudo apt install python3-colcon-common-extensions'
+    local module packages=()
+    for module in numpy scipy matplotlib pytest; do # pip would bring a NumPy that ROS cannot load
+        "$1" -c "import $module" 2>/dev/null || packages+=("python3-$module")
+    done
+    [ "${#packages[@]}" -eq 0 ] ||
+        die "$1 lacks what the ROS needs beside it: sudo apt install ${packages[*]}"
+}
+
 check_compilers() {
     local tool
     for tool in cmake make; do

@@ -23,9 +23,8 @@ unset _ROS_WHEELS_BOOTSTRAP_COMPLETE VIRTUAL_ENV # left over from a shell with e
 if [ -n "${ROS_DISTRO:-}" ] || [ -d /opt/ros/jazzy ]; then
     ros=/opt/ros/${ROS_DISTRO:-jazzy}
     [ -n "${AMENT_PREFIX_PATH:-}" ] || . "$ros/setup.bash" || die "$ros/setup.bash failed"
-    command -v colcon >/dev/null ||
-        die 'colcon is missing: sudo apt install python3-colcon-common-extensions'
     python=$(choose_python) || exit 1
+    check_ros_libraries "$python"
 else
     ros=
     unset AMENT_PREFIX_PATH CMAKE_PREFIX_PATH COLCON_PREFIX_PATH LD_LIBRARY_PATH PYTHONPATH
@@ -64,6 +63,7 @@ if [ "$wanted" != "$(cat install/stamp 2>/dev/null)" ]; then
     must 'Build the packages with colcon' build
     echo "$wanted" >install/stamp
 fi
+
 compiled_of() { # numba caches machine code beside the source; see grasp_quality/kernel.py
     cat "$venv/stamp" grasp_quality/kernel.py
 }
