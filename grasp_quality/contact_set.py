@@ -13,9 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from grasp_quality.arrays import checked, frozen
-from grasp_quality.contact import ROTATION_TOLERANCE, Contact, ContactModel
+from grasp_quality.contact import IDENTITY, ROTATION_TOLERANCE, Contact, ContactModel
 from grasp_quality.exceptions import InvalidContactError
-from grasp_quality.wrench import cross
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,23 +63,28 @@ class ContactSet(Sequence):
 
     def _check(self):
         R = self.rotations
-        skew = np.abs(R.transpose(0, 2, 1) @ R - np.eye(3)).max(axis=(1, 2))
-        handed = (cross(R[:, :, 0], R[:, :, 1]) * R[:, :, 2]).sum(axis=1)
-        self._refuse((skew > ROTATION_TOLERANCE) | (handed < 0.0), 'rotation must be a '
-                     'right-handed orthonormal matrix (columns t1, t2, inward normal)')
-        self._refuse(self.friction < 0.0, 'friction must be at least 0')
-        self._refuse(self.torsional_friction < 0.0, 'torsional_friction must be at least 0')
-        self._refuse(self.max_normal_forces <= 0.0, 'max_normal_force must be greater than 0')
-        self._refuse([not isinstance(m, ContactModel) for m in self.models],
-                     f'model must be one of {[str(m) for m in ContactModel]}')
+        skew = np.abs(R.transpose(0, 2, 1) @ R - IDENTITY)
+        if skew.max() > ROTATION_TOLERANCE or np.linalg.det(R).min() < 0.0:
+            self._refuse((skew.max(axis=(1, 2)) > ROTATION_TOLERANCE) | (np.linalg.det(R) < 0.0),
+                         'rotation must be a right-handed orthonormal matrix (columns t1, t2, '
+                         'inward normal)')
+        if self.friction.min() < 0.0:
+            self._refuse(self.friction < 0.0, 'friction must be at least 0')
+        if self.torsional_friction.min() < 0.0:
+            self._refuse(self.torsional_friction < 0.0, 'torsional_friction must be at least 0')
+        if self.max_normal_forces.min() <= 0.0:
+            self._refuse(self.max_normal_forces <= 0.0, 'max_normal_force must be greater than 0')
+        if not all(isinstance(model, ContactModel) for model in self.models):
+            self._refuse([not isinstance(model, ContactModel) for model in self.models],
+                         f'model must be one of {[str(m) for m in ContactModel]}')
 
     def _refuse(self, broken, rule):
-        for i in np.flatnonzero(broken)[:1]:
-            raise InvalidContactError(
-                f'contact {i} ({self.names[i]!r}): {rule}, got model {self.models[i]}, friction '
-                f'{self.friction[i]:g}, torsional_friction {self.torsional_friction[i]:g}, '
-                f'max_normal_force {self.max_normal_forces[i]:g}, '
-                f'rotation {self.rotations[i].tolist()}')
+        i = int(np.flatnonzero(broken)[0])
+        raise InvalidContactError(
+            f'contact {i} ({self.names[i]!r}): {rule}, got model {self.models[i]}, friction '
+            f'{self.friction[i]:g}, torsional_friction {self.torsional_friction[i]:g}, '
+            f'max_normal_force {self.max_normal_forces[i]:g}, '
+            f'rotation {self.rotations[i].tolist()}')
 
     @classmethod
     def of(cls, contacts):

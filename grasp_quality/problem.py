@@ -121,7 +121,7 @@ class ConicProblem:
         """K as (kind, dimension) in the order of u; kind is 'nonnegative' or 'second_order'."""
         return self.layout.cones
 
-    @property
+    @cached_property
     def reach(self):
         """Largest scaled force that the caps alone would allow; alpha's natural size, a0."""
         return self.layout.cap_total(self.grasp)
