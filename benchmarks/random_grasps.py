@@ -31,9 +31,11 @@ def random_grasp(rng, count=None, bound=None, models=MODELS):
 
 def random_load(rng, grasp):
     """Return a load (6,) that some forces well inside cones and caps balance."""
-    shares = rng.normal(size=(len(grasp), 4)) * 0.3 / max(1.0, np.sqrt(len(grasp)))
-    shares[:, 2] = rng.uniform(0.5, 1.0, len(grasp)) / len(grasp)
-    return -rng.uniform(0.0, 0.8) * grasp.wrench(shares * grasp.force_units)
+    normals = rng.uniform(0.4, 0.8, len(grasp)) / len(grasp)
+    sides = rng.normal(size=(len(grasp), 3))
+    sides *= (0.5 * normals / np.linalg.norm(sides, axis=1))[:, None]
+    shares = np.stack([sides[:, 0], sides[:, 1], normals, sides[:, 2]], axis=1)
+    return -grasp.wrench(shares * grasp.force_units)
 
 
 def degenerate_grasp(rng):

@@ -26,6 +26,7 @@ ACCEPTED = 1e-8      # of the same, when rounding stops the iteration short of i
 RANK_TOLERANCE = 1e-9
 
 
+@np.errstate(over='ignore', invalid='ignore', divide='ignore')  # where there is no centre
 def weighted_center(E, e, c, weights):
     """
     Find the weighted centre.

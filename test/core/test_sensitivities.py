@@ -12,7 +12,7 @@ from tolerances import SOLVER
 from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
 from grasp_quality import Contact, ContactModel, Grasp, TaskWrench, evaluate
 
-STEP = 1e-4
+STEP = 2e-5
 AGREEMENT = 2e-4  # of the largest derivative: solver tolerance over step
 
 
