@@ -56,15 +56,15 @@ def usage(forces, scales, max_normal_force, unloaded=UNLOADED):
 
 def usage_of_shares(shares, unloaded=UNLOADED):
     """
-    Share of the friction cone in use, (k,), as ``usage``.
+    Share of the friction cone in use, (..., k), as ``usage``.
 
     Parameters
     ----------
-    shares : (k, 4) array
+    shares : (..., k, 4) array
         [t1/mu, t2/mu, n, m_n/gamma] / f_max, with zeros where a contact carries nothing.
 
     """
-    t1, t2, normal, moment = shares.T
+    t1, t2, normal, moment = (shares[..., i] for i in range(4))
     return _share(np.sqrt(t1 * t1 + t2 * t2 + moment * moment), normal, unloaded)
 
 

@@ -160,6 +160,12 @@ class Grasp:
         return float(self.max_normal_forces.max())
 
     @cached_property
+    def cap_total(self):
+        """Largest sum of normals that the bound allows, as a share of the largest cap."""
+        return bounds.support(
+            self.max_normal_forces / self.force_scale, self.bound, self.groups)
+
+    @cached_property
     def _range(self):
         """Orthonormal basis (6, rank) of the wrenches that unbounded forces could span."""
         G = self.scaled_matrix.reshape(6, -1)

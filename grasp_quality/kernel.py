@@ -435,3 +435,38 @@ def solve_wrench(G, curvature, groups, task, load, sense, size, weights, work, g
             break
         advance(step, work, group, scalars, multipliers, change)
     return False, scalars[ALPHA], iteration
+
+
+@numba.njit(parallel=True, **COMPILE)
+def solve_wrenches(G, curvature, groups, group_count, tasks, load, size, chunks, alphas, shares,
+                   multipliers, converged):
+    """
+    Largest alpha of many task wrenches on one grasp, shared out over the cores.
+
+    Parameters
+    ----------
+    G, curvature, groups, load, size
+        As in ``solve_wrench``.
+    group_count : int
+    tasks : (N, 6) array
+        Scaled task wrenches, each of norm one.
+    chunks : int
+        Into how many parts to share the work out.
+    alphas : (N,) array
+    shares : (N, k, 4) array
+        Contacts' variables n, t1, t2, m_n afterwards.
+    multipliers : (N, 6) array
+    converged : (N,) bool array
+
+    """
+    count, k = tasks.shape[0], G.shape[0]
+    for chunk in numba.prange(chunks):
+        work, group = np.empty((k, 8, 4)), np.empty((group_count, 8))
+        weights = np.zeros(k)
+        for i in range(chunk * count // chunks, (chunk + 1) * count // chunks):
+            converged[i], alphas[i], _ = solve_wrench(
+                G, curvature, groups, tasks[i], load, 1.0, size, weights, work, group,
+                multipliers[i])
+            for contact in range(k):
+                for c in range(4):
+                    shares[i, contact, c] = work[contact, U, c]

@@ -14,8 +14,6 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from grasp_quality.bounds import group_maxima
-
 CONE_ORDER = (2, 0, 1, 3)  # axis first: n, t1, t2, m_n
 ROLES = ('task', 'pressing', 'widening')
 
@@ -80,13 +78,6 @@ class Layout:
     def contact_multipliers(self, multipliers):
         """Multiplier nu of the bound for every contact (k,), from those of all equations."""
         return multipliers[6:][list(self.groups)] if self.groups else multipliers[7:]
-
-    def cap_total(self, grasp):
-        """Sum over the groups of their largest cap, as a share of the largest of all."""
-        shares = grasp.max_normal_forces / grasp.force_scale
-        if not self.groups:
-            return float(np.sqrt(shares @ shares))
-        return float(group_maxima(shares, self.groups).sum())
 
 
 @lru_cache(maxsize=256)

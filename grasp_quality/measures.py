@@ -14,12 +14,13 @@ import numpy as np
 from grasp_quality import friction_cone
 from grasp_quality.arrays import checked, checked_number, frozen
 from grasp_quality.barrier import with_margin
+from grasp_quality.batch import solve_wrenches
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.polytope import evaluate_ellipsoid, evaluate_polytope
 from grasp_quality.problem import build_problem
 from grasp_quality.solution import WrenchMap
 from grasp_quality.solve import solve
-from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
+from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench, check_rows
 
 
 def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s=None):
@@ -102,16 +103,10 @@ def wrench_map(grasp, directions, external_wrench=None, forces=False, time_limit
 
     """
     directions = checked(directions, (None, 6), 'directions', InvalidTaskError)
-    alpha = np.zeros(len(directions))
-    feasible = np.zeros(len(directions), dtype=bool)
-    all_forces = np.zeros((len(directions), len(grasp), 4)) if forces else None
-    for i, direction in enumerate(directions):
-        solution = solve(build_problem(grasp, TaskWrench(direction), external_wrench), time_limit_s)
-        alpha[i], feasible[i] = solution.alpha, solution.feasible
-        if forces and solution.feasible:
-            all_forces[i] = solution.forces
-    return WrenchMap(directions, frozen(alpha), frozen(feasible),
-                     frozen(all_forces) if forces else None)
+    check_rows(directions, 'directions')
+    batch = solve_wrenches(grasp, directions, external_wrench, time_limit_s)
+    return WrenchMap(directions, frozen(batch.alpha), frozen(batch.feasible),
+                     frozen(batch.forces) if forces else None)
 
 
 def slip_margin(grasp, forces):

@@ -139,11 +139,16 @@ class Services:
         else:
             directions = self._grid(request.resolution, settings)
         answer = wrench_map(grasp, directions, load, time_limit_s=settings.solver_time_limit)
-        response.result = status_result(
-            Status.OPTIMAL if answer.feasible.all() else Status.INFEASIBLE)
-        if answer.feasible.all():
-            response.directions = [to_wrench(d) for d in answer.directions]
-            response.alphas = answer.alpha.tolist()
+        if not answer.feasible.any():
+            response.result = status_result(Status.INFEASIBLE)
+            return
+        response.result = status_result(Status.OPTIMAL)
+        missing = len(directions) - int(answer.feasible.sum())
+        if missing:
+            response.result.message = (
+                f'{missing} of {len(directions)} directions are infeasible: alpha is 0 there')
+        response.directions = [to_wrench(d) for d in answer.directions.tolist()]
+        response.alphas = answer.alpha.tolist()
 
     def _grid(self, resolution, settings):
         steps = resolution or max(1, round(math.sqrt(settings.map_directions / 2)))

@@ -13,9 +13,8 @@ import itertools
 import numpy as np
 
 from grasp_quality.arrays import frozen
-from grasp_quality.problem import build_problem
+from grasp_quality.batch import solve_wrenches
 from grasp_quality.solution import PolytopeSolution, Status
-from grasp_quality.solve import solve
 from grasp_quality.task import TaskWrench
 
 MAX_PARALLELOTOPE = 8  # wrenches; the corners are 2^8
@@ -62,12 +61,11 @@ def _largest_scale(grasp, reached, external_wrench, time_limit_s):
     """Least alpha over the corners sum_{i in S} alpha_i F_i, at most 1."""
     reached = reached[reached.any(axis=1)]
     size = np.abs(reached).max(initial=0.0)
-    scale = 1.0
-    for count in range(2, len(reached) + 1):
-        for subset in itertools.combinations(reached, count):
-            corner = np.sum(subset, axis=0)
-            if np.abs(corner).max() <= 1e-9 * size:
-                continue  # opposite wrenches cancel; the zero wrench is held
-            problem = build_problem(grasp, TaskWrench(corner), external_wrench)
-            scale = min(scale, solve(problem, time_limit_s).alpha)
-    return scale
+    corners = [np.sum(subset, axis=0) for count in range(2, len(reached) + 1)
+               for subset in itertools.combinations(reached, count)]
+    # opposite wrenches cancel; the zero wrench is held
+    corners = [corner for corner in corners if np.abs(corner).max() > 1e-9 * size]
+    if not corners:
+        return 1.0
+    alphas = solve_wrenches(grasp, np.array(corners), external_wrench, time_limit_s).alpha
+    return min(1.0, float(alphas.min()))

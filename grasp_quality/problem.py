@@ -121,10 +121,10 @@ class ConicProblem:
         """K as (kind, dimension) in the order of u; kind is 'nonnegative' or 'second_order'."""
         return self.layout.cones
 
-    @cached_property
+    @property
     def reach(self):
         """Largest scaled force that the caps alone would allow; alpha's natural size, a0."""
-        return self.layout.cap_total(self.grasp)
+        return self.grasp.cap_total
 
 
 def build_problem(grasp, task, external_wrench=None):

@@ -126,7 +126,7 @@ class TaskPolytope:
     def __post_init__(self):
         """Validate and copy."""
         wrenches = checked(self.wrenches, (None, 6), 'task wrenches', InvalidTaskError)
-        _check_rows(wrenches, 'task_wrenches')
+        check_rows(wrenches, 'task_wrenches')
         if self.weights is None:
             weights = frozen(np.full(len(wrenches), 1.0 / len(wrenches)))
         else:
@@ -157,11 +157,12 @@ class TaskEllipsoid:
     def __post_init__(self):
         """Validate and copy."""
         axes = checked(self.axes, (None, 6), 'ellipsoid axes', InvalidTaskError)
-        _check_rows(axes, 'ellipsoid axes')
+        check_rows(axes, 'ellipsoid axes')
         object.__setattr__(self, 'axes', axes)
 
 
-def _check_rows(wrenches, name):
+def check_rows(wrenches, name):
+    """Refuse an empty list of wrenches (n, 6), and one with a zero row."""
     if not len(wrenches):
         raise InvalidTaskError(f'{name} must hold at least one wrench, got none')
     zero = [i for i, row in enumerate(wrenches) if not row.any()]
