@@ -4,12 +4,15 @@
 Many task wrenches on one grasp at once: maps, surfaces, corners.
 
 The kernel solves them on all cores; the proof is that of ``proof``, for all of them in a few array
-operations. Whatever misses it is solved again by itself, by whichever solver proves it.
+operations. Whatever misses it is solved again by itself, by whichever solver proves it. The cores
+are shared by Python threads around compiled code that releases the lock: unlike numba's own
+parallel loops these may be used from several threads and in forked processes.
 """
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+import os
 
-import numba
 import numpy as np
 
 from grasp_quality import kernel, proof
@@ -19,7 +22,7 @@ from grasp_quality.solve import solve
 from grasp_quality.task import TaskWrench
 from grasp_quality.wrench import as_wrench
 
-CHUNKS_PER_CORE = 4
+SMALL = 128  # wrenches that are not worth a thread
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,9 +94,20 @@ def _by_kernel(grasp, wrenches, load):
     reach = grasp.cap_total
     alpha, shares = np.empty(count), np.empty((count, k, 4))
     multipliers, converged = np.empty((count, 6)), np.empty(count, bool)
-    kernel.solve_wrenches(
-        G, curvature, groups, max(grasp.groups) + 1, tasks, load, reach,
-        CHUNKS_PER_CORE * numba.get_num_threads(), alpha, shares, multipliers, converged)
+    cores = len(os.sched_getaffinity(0)) if count > SMALL else 1
+    ends = np.linspace(0, count, cores + 1).astype(int)
+    parts = [slice(begin, end) for begin, end in zip(ends[:-1], ends[1:])]
+
+    def solve_part(part):
+        kernel.solve_wrenches(
+            G, curvature, groups, max(grasp.groups) + 1, tasks[part], load, reach, alpha[part],
+            shares[part], multipliers[part], converged[part])
+
+    if cores == 1:
+        solve_part(parts[0])
+    else:
+        with ThreadPoolExecutor(cores) as pool:
+            list(pool.map(solve_part, parts))
     shares = shares[:, :, (1, 2, 0, 3)]
     # a wrong lambda only ever gives a bound that does not prove
     alpha, shares, proved = _prove(grasp, tasks, load, reach, alpha, shares, multipliers)

@@ -437,11 +437,11 @@ def solve_wrench(G, curvature, groups, task, load, sense, size, weights, work, g
     return False, scalars[ALPHA], iteration
 
 
-@numba.njit(parallel=True, **COMPILE)
-def solve_wrenches(G, curvature, groups, group_count, tasks, load, size, chunks, alphas, shares,
+@numba.njit(nogil=True, **COMPILE)
+def solve_wrenches(G, curvature, groups, group_count, tasks, load, size, alphas, shares,
                    multipliers, converged):
     """
-    Largest alpha of many task wrenches on one grasp, shared out over the cores.
+    Largest alpha of many task wrenches on one grasp; releases Python's lock meanwhile.
 
     Parameters
     ----------
@@ -450,8 +450,6 @@ def solve_wrenches(G, curvature, groups, group_count, tasks, load, size, chunks,
     group_count : int
     tasks : (N, 6) array
         Scaled task wrenches, each of norm one.
-    chunks : int
-        Into how many parts to share the work out.
     alphas : (N,) array
     shares : (N, k, 4) array
         Contacts' variables n, t1, t2, m_n afterwards.
@@ -459,14 +457,12 @@ def solve_wrenches(G, curvature, groups, group_count, tasks, load, size, chunks,
     converged : (N,) bool array
 
     """
-    count, k = tasks.shape[0], G.shape[0]
-    for chunk in numba.prange(chunks):
-        work, group = np.empty((k, 8, 4)), np.empty((group_count, 8))
-        weights = np.zeros(k)
-        for i in range(chunk * count // chunks, (chunk + 1) * count // chunks):
-            converged[i], alphas[i], _ = solve_wrench(
-                G, curvature, groups, tasks[i], load, 1.0, size, weights, work, group,
-                multipliers[i])
-            for contact in range(k):
-                for c in range(4):
-                    shares[i, contact, c] = work[contact, U, c]
+    k = G.shape[0]
+    work, group = np.empty((k, 8, 4)), np.empty((group_count, 8))
+    weights = np.zeros(k)
+    for i in range(tasks.shape[0]):
+        converged[i], alphas[i], _ = solve_wrench(
+            G, curvature, groups, tasks[i], load, 1.0, size, weights, work, group, multipliers[i])
+        for contact in range(k):
+            for c in range(4):
+                shares[i, contact, c] = work[contact, U, c]

@@ -91,7 +91,7 @@ class TaskCone:
     def _holds_zero(self):
         """Whether axis + x lateral_x + y lateral_y can vanish with |(x, y)| <= tan(half_angle)."""
         laterals = np.stack([self.lateral_x, self.lateral_y], axis=1)  # (6, 2)
-        least = -np.linalg.lstsq(laterals, self.axis)[0]
+        least = -np.linalg.lstsq(laterals, self.axis, rcond=None)[0]
         rest = self.axis + laterals @ least
         return bool(np.abs(rest).max() <= PARALLEL * np.abs(self.axis).max()
                     and np.hypot(*least) <= np.tan(self.half_angle) * (1.0 + PARALLEL))

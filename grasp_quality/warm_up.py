@@ -9,7 +9,7 @@ cache beside the source). ``python -m grasp_quality.warm_up`` does the same from
 
 from grasp_quality.contact import Contact, ContactModel
 from grasp_quality.grasp import Grasp
-from grasp_quality.measures import evaluate
+from grasp_quality.measures import evaluate, wrench_map
 from grasp_quality.task import TaskWrench
 
 
@@ -18,8 +18,9 @@ def warm_up(bound='linf'):
     for model in ContactModel:
         contacts = [Contact((x, 0.0, 0.0), (-x, 0.0, 0.0), model, torsional_friction=0.005,
                             finger=f'finger at {x}') for x in (-0.03, 0.03)]
-        evaluate(Grasp(contacts, bound), TaskWrench([1, 0, 0, 0, 0, 0]), [0, 0, -0.1, 0, 0, 0],
-                 1e-3)
+        grasp = Grasp(contacts, bound)
+        evaluate(grasp, TaskWrench([1, 0, 0, 0, 0, 0]), [0, 0, -0.1, 0, 0, 0], 1e-3)
+        wrench_map(grasp, [[1, 0, 0, 0, 0, 0]])
 
 
 if __name__ == '__main__':
