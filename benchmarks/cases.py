@@ -5,10 +5,9 @@
 import json
 from pathlib import Path
 
-import numpy as np
-
 from grasp_quality import (
-    Contact, ContactModel, Grasp, TaskCone, TaskPolytope, TaskWrench, evaluate)
+    Contact, ContactModel, evaluate, Grasp, TaskCone, TaskPolytope, TaskWrench)
+import numpy as np
 
 PATH = Path(__file__).parents[1] / 'test' / 'core' / 'cases.json'
 CASES = json.loads(PATH.read_text())

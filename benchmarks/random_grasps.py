@@ -7,9 +7,8 @@ Ordinary grasps hold a unit ball; degenerate ones have contacts on top of each o
 caps and friction over six decades, frictionless contacts, at any size from 1 mm and 1 mN on.
 """
 
-import numpy as np
-
 from grasp_quality import Contact, ContactModel, Grasp
+import numpy as np
 
 BOUNDS = ('l1', 'l2', 'linf', 'finger')
 MODELS = tuple(ContactModel)

@@ -116,6 +116,8 @@ def prove(problem, shares, values, multipliers):
     with np.errstate(invalid='ignore'):
         upper, multipliers, per_contact = upper * scale, multipliers * scale, per_contact * scale
 
+    if virtual.role == 'task' and virtual.objective[0] > 0.0:
+        values = held(values, upper)
     balance = (grasp.scaled_matrix.reshape(6, -1) @ shares.ravel()
                + problem.scaled_external_wrench)
     widening = virtual.role == 'widening'
@@ -133,6 +135,12 @@ def prove(problem, shares, values, multipliers):
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
         multiplier=frozen(multipliers), bound_multiplier=frozen(per_contact),
         size=1.0 if virtual.role != 'task' else problem.reach)
+
+
+def held(values, upper):
+    """Values of a task with the first between zero and its bound, the others in proportion."""
+    first = max(0.0, min(float(values[0]), float(upper)))
+    return values * (first / values[0]) if first > 0.0 else np.zeros(len(values))
 
 
 def infeasibility_margin(problem, direction):

@@ -15,9 +15,8 @@ CVXPY is needed by this module alone; it is too slow for the live path (docs/per
 from dataclasses import dataclass
 
 import cvxpy as cp
-import numpy as np
-
 from grasp_quality.grasp import Grasp
+import numpy as np
 
 SOLVER_SETTINGS = {
     'solver': cp.CLARABEL, 'tol_gap_abs': 1e-10, 'tol_gap_rel': 1e-10, 'tol_feas': 1e-10}
@@ -173,7 +172,7 @@ def _cones(grasp, forces, margin=0.0):
 
 
 def _log_det(contact, x):
-    """Log det P_i up to a constant: log(n^2 - |friction part|^2), or log n without friction."""
+    """Return log det P_i up to a constant: log(n^2 - |friction|^2), or log n without it."""
     carried, _ = _parts(contact, x)
     if not carried:
         return cp.log(x[2])
@@ -183,7 +182,7 @@ def _log_det(contact, x):
 
 
 def _bound(grasp, normals, size):
-    """The norm on the normals: of n_i / f_max,i over each group, or the Euclidean one of all."""
+    """Bound the normals: the sum of n_i / f_max,i over each group, or the norm of all."""
     shares = cp.multiply(normals, 1.0 / grasp.max_normal_forces)
     if grasp.bound == 'l2':
         return [cp.norm(shares) <= size]

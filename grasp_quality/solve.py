@@ -16,7 +16,8 @@ from grasp_quality import clarabel_solver, friction_cone, kernel_solver
 from grasp_quality.arrays import frozen
 from grasp_quality.bounds import gauge
 from grasp_quality.exceptions import SolverError
-from grasp_quality.proof import GAP_TOLERANCE, INFEASIBILITY_TOLERANCE, infeasibility_margin, prove
+from grasp_quality.proof import (
+    GAP_TOLERANCE, INFEASIBILITY_TOLERANCE, held, infeasibility_margin, prove)
 from grasp_quality.solution import (
     NO_FORCES, NO_USAGE, ConeSolution, Solution, Status, dimensional_multiplier)
 
@@ -140,10 +141,8 @@ def solve(problem, time_limit_s=None):
 
 def task_share(problem, values, alpha_upper):
     """Alpha and the wrench (6,) that it stands for, held between zero and its upper bound."""
-    virtual, found = problem.virtual, float(values[0])
-    alpha = max(0.0, min(found * virtual.unit, alpha_upper))
-    share = alpha / found if found > 0.0 else 0.0
-    return alpha, frozen((values * share) @ virtual.wrenches)
+    applied = held(values * problem.virtual.unit, alpha_upper)
+    return float(applied[0]), frozen(applied @ problem.virtual.wrenches)
 
 
 def infeasible(kind, grasp):

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The core's tests: every warning is an error, and the benchmarks' problems can be imported."""
 
-import sys
 from pathlib import Path
+import sys
 
 import pytest
 

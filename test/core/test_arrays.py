@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Arrays that enter the library: checked, copied, read-only."""
 
-import numpy as np
-import pytest
-
 from grasp_quality.arrays import checked, checked_number
 from grasp_quality.exceptions import InvalidTaskError
+import numpy as np
+import pytest
 
 
 def test_checked_copies_and_freezes():

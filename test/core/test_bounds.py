@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The force bound: groups, gauge and support, which are dual to each other."""
 
+from grasp_quality import InvalidGraspError
+from grasp_quality.bounds import gauge, group_maxima, groups_of, support
 import numpy as np
 import pytest
 from tolerances import EXACT
-
-from grasp_quality import InvalidGraspError
-from grasp_quality.bounds import gauge, group_maxima, groups_of, support
 
 FINGERS = ('thumb', 'index', 'thumb', 'middle')
 

@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """All known answers of cases.json; its ball_radius block belongs to a measure not built yet."""
 
-import numpy as np
-import pytest
 from answer_checks import check_task_wrench
-from tolerances import SOLVER
-
 from benchmarks.cases import CASES, evaluate_case
 from grasp_quality import Status
+import numpy as np
+import pytest
+from tolerances import SOLVER
 
 
 def cases(kind):

@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The weighted centre of a conic program: optimality conditions and closed forms."""
 
+from grasp_quality.centering import weighted_center
+from grasp_quality.cone_algebra import determinant, is_interior
 import numpy as np
 import pytest
 from tolerances import CLOSED_FORM
-
-from grasp_quality.centering import weighted_center
-from grasp_quality.cone_algebra import determinant, is_interior
 
 
 def test_half_lines_in_closed_form():

@@ -3,14 +3,13 @@
 """Clarabel as it is called: its answers, its time limit, and its panics as our own errors."""
 
 import clarabel
+from grasp_quality import build_problem, SolverError, SolverTimeoutError, TaskWrench
+from grasp_quality.clarabel_solver import ATTEMPTS, run, run_matrices
+from known_grasps import antipodal, FX, FY
 import numpy as np
 import pytest
-from known_grasps import FX, FY, antipodal
 from scipy.sparse import csc_matrix
 from tolerances import SOLVER
-
-from grasp_quality import SolverError, SolverTimeoutError, TaskWrench, build_problem
-from grasp_quality.clarabel_solver import ATTEMPTS, run, run_matrices
 
 NONNEGATIVE, SECOND_ORDER = clarabel.NonnegativeConeT, clarabel.SecondOrderConeT
 ONE = csc_matrix(np.eye(1))
@@ -72,14 +71,11 @@ def test_numbers_that_are_none_do_not_count_as_solved():
 
 def test_interrupts_pass_through():
     class Interrupting:
-        def __array__(self, *_, **__):
-            raise KeyboardInterrupt
-
-        def __len__(self):
-            raise KeyboardInterrupt
+        """A matrix that cannot be read."""
 
         def __getattr__(self, name):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_matrices(ONE, np.zeros(1), Interrupting(), np.zeros(1), [SECOND_ORDER(1)], quiet(), None)
+        run_matrices(
+            ONE, np.zeros(1), Interrupting(), np.zeros(1), [SECOND_ORDER(1)], quiet(), None)

@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The algebra of second-order cones that the interior-point method of the barrier stands on."""
 
+from grasp_quality.cone_algebra import (
+    determinant, divide, is_interior, largest_step, product, Scaling)
 import numpy as np
 import pytest
 from tolerances import CLOSED_FORM, EXACT
-
-from grasp_quality.cone_algebra import (
-    Scaling, determinant, divide, is_interior, largest_step, product)
 
 RNG = np.random.default_rng(0)
 

@@ -4,12 +4,11 @@
 
 import dataclasses
 
+from grasp_quality import Contact, ContactModel, GraspQualityError, InvalidContactError
+from grasp_quality.contact import frame_from_normal
 import numpy as np
 import pytest
 from tolerances import EXACT
-
-from grasp_quality import Contact, ContactModel, GraspQualityError, InvalidContactError
-from grasp_quality.contact import frame_from_normal
 
 ORIGIN, UP = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 

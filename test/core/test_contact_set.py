@@ -4,12 +4,11 @@
 
 import dataclasses
 
-import numpy as np
-import pytest
-
 from benchmarks.random_grasps import random_grasp
 from grasp_quality import Contact, ContactModel, Grasp, InvalidContactError
 from grasp_quality.contact_set import ContactSet
+import numpy as np
+import pytest
 
 
 @pytest.fixture
@@ -34,7 +33,8 @@ def test_it_is_a_sequence(contacts):
     assert len(contacts) == 5 and len(list(contacts)) == 5
     assert isinstance(contacts[-1], Contact) and isinstance(contacts[1:3], ContactSet)
     assert contacts[1:3].fingers == contacts.fingers[1:3]
-    assert contacts.subset([4, 0]).friction.tolist() == [contacts[4].friction, contacts[0].friction]
+    assert contacts.subset([4, 0]).friction.tolist() == [
+        contacts[4].friction, contacts[0].friction]
     with pytest.raises(IndexError):
         contacts[5]
 

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every error of the library can be caught as one, and input errors as ValueError too."""
 
-import pytest
-
 from grasp_quality import exceptions
+import pytest
 
 
 @pytest.mark.parametrize('name, habit', [

@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The friction cones: scales, usage, support and log-determinant."""
 
+from grasp_quality import friction_cone
 import numpy as np
 import pytest
 from tolerances import EXACT
-
-from grasp_quality import friction_cone
 
 SCALES = friction_cone.coordinate_scales(
     np.array([0.0, 0.5, 0.5, 0.0]), np.array([0.0, 0.0, 0.1, 0.1]))

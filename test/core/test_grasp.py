@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A grasp's arrays: grasp matrix, scaling, rank, range."""
 
-import numpy as np
-import pytest
-from known_grasps import FX, FY, TX, antipodal, single, three_finger
-from tolerances import CLOSED_FORM, EXACT
-
 from benchmarks.random_grasps import random_grasp
 from grasp_quality import Contact, ContactModel, Grasp, InvalidGraspError
+from known_grasps import antipodal, FX, FY, single, three_finger, TX
+import numpy as np
+import pytest
+from tolerances import CLOSED_FORM, EXACT
 
 RNG = np.random.default_rng(0)
 

@@ -6,14 +6,13 @@ import dataclasses
 import subprocess
 import sys
 
-import numpy as np
-import pytest
-from known_grasps import FX, FY, FZ, antipodal, three_finger
-from tolerances import SOLVER
-
 from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
 from grasp_quality import (
-    SolverTimeoutError, TaskCone, TaskWrench, build_problem, clarabel_solver, kernel_solver)
+    build_problem, clarabel_solver, kernel_solver, SolverTimeoutError, TaskCone, TaskWrench)
+from known_grasps import antipodal, FX, FY, FZ, three_finger
+import numpy as np
+import pytest
+from tolerances import SOLVER
 
 
 @pytest.mark.parametrize('bound', [b for b in BOUNDS if b != 'l2'])

@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Closed forms of the paper's figures and of small grasps."""
 
+from grasp_quality import ContactModel, evaluate, TaskCone, TaskWrench
+from known_grasps import antipodal, cube_of_eight, FX, FY, FZ, single, three_finger, TX, TZ
 import numpy as np
 import pytest
-from known_grasps import (
-    FX, FY, FZ, TX, TZ, antipodal, cube_of_eight, single, three_finger)
 from tolerances import CLOSED_FORM, SOLVER
-
-from grasp_quality import ContactModel, TaskCone, TaskWrench, evaluate
 
 
 def alpha(grasp, wrench, **arguments):

@@ -4,15 +4,14 @@
 
 import dataclasses
 
+from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
+from grasp_quality import (
+    Contact, evaluate, force_closure, Grasp, minimum_forces, Status, TaskCone, TaskWrench)
+from grasp_quality.wrench import transform
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from tolerances import SOLVER
-
-from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
-from grasp_quality import (
-    Contact, Grasp, Status, TaskCone, TaskWrench, evaluate, force_closure, minimum_forces)
-from grasp_quality.wrench import transform
 
 SEEDS = range(6)
 each_seed = pytest.mark.parametrize('seed', SEEDS)

@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The layout of the conic program: which variable and equation stands where."""
 
+from benchmarks.random_grasps import BOUNDS, random_grasp
+from grasp_quality import build_problem, TaskCone, TaskWrench
+from grasp_quality.layout import layout_of
+from known_grasps import antipodal, FX, FY, FZ, three_finger
 import numpy as np
 import pytest
-from known_grasps import FX, FY, FZ, antipodal, three_finger
-
-from benchmarks.random_grasps import BOUNDS, random_grasp
-from grasp_quality import TaskCone, TaskWrench, build_problem
-from grasp_quality.layout import layout_of
 
 
 @pytest.mark.parametrize('bound', BOUNDS)

@@ -4,13 +4,12 @@
 
 import dataclasses
 
+from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
+from grasp_quality import Contact, ContactModel, evaluate, Grasp, TaskWrench
+from known_grasps import antipodal, FX, FY, single, three_finger
 import numpy as np
 import pytest
-from known_grasps import FX, FY, antipodal, single, three_finger
 from tolerances import SOLVER
-
-from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
-from grasp_quality import Contact, ContactModel, Grasp, TaskWrench, evaluate
 
 STEP = 2e-5
 AGREEMENT = 2e-4  # of the largest derivative: solver tolerance over step

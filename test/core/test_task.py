@@ -4,13 +4,11 @@
 
 import dataclasses
 
+from grasp_quality import InvalidTaskError, TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
+from known_grasps import FX, FY, FZ, TX
 import numpy as np
 import pytest
-from known_grasps import FX, FY, FZ, TX
 from tolerances import EXACT
-
-from grasp_quality import (
-    InvalidTaskError, TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench)
 
 
 @pytest.mark.parametrize('make, message', [

@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wrenches between reference points and frames."""
 
+from grasp_quality import InvalidTaskError
+from grasp_quality.wrench import as_wrench, cross, shift, transform
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from tolerances import EXACT
-
-from grasp_quality import InvalidTaskError
-from grasp_quality.wrench import as_wrench, cross, shift, transform
 
 RNG = np.random.default_rng(0)
 R = Rotation.random(rng=RNG).as_matrix()
