@@ -12,6 +12,7 @@ import functools
 
 from geometry_msgs.msg import PoseArray, WrenchStamped
 from rclpy.clock import Clock, ClockType
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 
@@ -54,7 +55,6 @@ class GraspQualityNode(LifecycleNode):
         self._outputs.declare_wrenches(self.settings.contact_names)
         self._live = LiveLoop(self._inputs, self._outputs, current, self._monitor)
         self._handlers = Services(self, self._inputs, current, lambda: self.active)
-        self._sample = self.create_guard_condition(self._guarded(self._on_sample))
         self._subscribe()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._watchdog = self.create_timer(
@@ -68,23 +68,27 @@ class GraspQualityNode(LifecycleNode):
         self._guard_lifecycle_services()
 
     def _subscribe(self):
-        def store(message_type, topic, keep, profile):
+        def subscribe(message_type, topic, receive, profile):
+            self.create_subscription(
+                message_type, topic, self._guarded(receive), profile,
+                event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False))
+
+        def then_evaluate(keep):
             def receive(message):
                 keep(message)
-                self._sample.trigger()
-            self.create_subscription(message_type, topic, self._guarded(receive), profile)
+                self._evaluate()
+            return receive
 
+        # what is ready runs in this order: contacts find all else of their instant received
         inputs, sensor, command = self._inputs, qos.newest_sample(), qos.newest_command()
-        if self.settings.contact_source == 'pose_array':
-            store(PoseArray, '~/contact_poses', inputs.store_contacts, sensor)
-        else:
-            store(ContactArray, '~/contacts', inputs.store_contacts, sensor)
-        store(WrenchStamped, '~/task_wrench', inputs.store_task_wrench, command)
-        store(WrenchStamped, '~/external_wrench', inputs.store_load, command)
         for name in self.settings.contact_names:
-            self.create_subscription(
-                WrenchStamped, f'~/contact_wrenches/{name}',
-                self._guarded(functools.partial(inputs.store_wrench, name)), sensor)
+            subscribe(WrenchStamped, f'~/contact_wrenches/{name}',
+                      functools.partial(inputs.store_wrench, name), sensor)
+        subscribe(WrenchStamped, '~/task_wrench', then_evaluate(inputs.store_task_wrench), command)
+        subscribe(WrenchStamped, '~/external_wrench', then_evaluate(inputs.store_load), command)
+        source = {'pose_array': (PoseArray, '~/contact_poses'),
+                  'contact_array': (ContactArray, '~/contacts')}[self.settings.contact_source]
+        subscribe(*source, then_evaluate(inputs.store_contacts), sensor)
 
     def _guarded(self, callback):
         """Keep every exception inside the callback it came from."""
@@ -112,7 +116,7 @@ class GraspQualityNode(LifecycleNode):
                 return response
         service.callback = answer
 
-    def _on_sample(self):
+    def _evaluate(self):
         if self.active:
             self._live.evaluate()
 
@@ -129,7 +133,7 @@ class GraspQualityNode(LifecycleNode):
             self._watchdog.timer_period_ns = int(
                 1e9 * WATCH_SHARE * self.settings.max_contact_age)
         if any(isinstance(change, Parameter) for change in changes):
-            self._sample.trigger()
+            self._evaluate()
 
     def on_configure(self, state):
         """Warm up: the first query after activation shall be as fast as the thousandth."""

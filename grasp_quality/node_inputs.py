@@ -13,7 +13,8 @@ import numpy as np
 from builtin_interfaces.msg import Time
 
 from grasp_quality.contact import Contact
-from grasp_quality.contact_set import ContactSet
+from grasp_quality.grasp import Grasp
+from grasp_quality.measures import slip_margin
 from grasp_quality_msgs.srv import SetTask
 from msg_adapters.contacts import contacts_from_array, contacts_from_poses
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
@@ -32,8 +33,8 @@ class Scene:
 
     Attributes
     ----------
-    contacts : ContactSet
-        Those that count as loaded.
+    grasp : Grasp
+        Of the contacts that count as loaded.
     forces : tuple of (4,) array or None
         Measured local force of each, where there is a fresh one.
     frame : str
@@ -43,7 +44,7 @@ class Scene:
 
     """
 
-    contacts: ContactSet
+    grasp: Grasp
     forces: tuple
     frame: str
     stamp: Time
@@ -56,6 +57,7 @@ class Inputs:
         self._settings = settings
         self._now_ns = now_ns
         self._contacts = None      # (message, arrival [ns])
+        self._read = (None, None)  # (contact message, settings, Grasp, object frame)
         self._wrenches = {}        # contact name: (message, arrival [ns])
         self.task = None           # SetTask.Request
         self.load = None           # WrenchStamped
@@ -125,22 +127,22 @@ class Inputs:
 
         """
         self.age_s()
-        message = self._contacts[0]
-        contacts, frame = self.read_contacts(message)
-        forces = self._measured(contacts, frame)
-        threshold = self._settings().min_contact_force
-        if threshold > 0.0:
+        message, settings = self._contacts[0], self._settings()
+        if self._read[0] is not message or self._read[1] is not settings:
+            self._read = (message, settings, *self.read_grasp(message))
+        grasp, frame = self._read[2:]
+        forces = self._measured(grasp.contacts, frame)
+        if settings.min_contact_force > 0.0:
             loaded = [i for i, force in enumerate(forces)
-                      if force is not None and force[2] >= threshold]
-            if len(contacts) and not loaded:
+                      if force is not None and force[2] >= settings.min_contact_force]
+            if not loaded:
                 raise NoContactsError(LOADED_MEASUREMENTS)
-            contacts, forces = contacts.subset(loaded), [forces[i] for i in loaded]
-        if not len(contacts):
-            raise NoContactsError('the newest contact message holds no contacts')
-        return Scene(contacts, tuple(forces), frame, message.header.stamp)
+            grasp = Grasp(grasp.contacts.subset(loaded), settings.force_bound)
+            forces = [forces[i] for i in loaded]
+        return Scene(grasp, tuple(forces), frame, message.header.stamp)
 
-    def read_contacts(self, message):
-        """Turn a PoseArray or ContactArray into (ContactSet, object frame)."""
+    def read_grasp(self, message):
+        """Turn a PoseArray or ContactArray into (Grasp, object frame)."""
         settings = self._settings()
         frame = object_frame_of(message.header.frame_id, settings.object_frame)
         transform = self.transform(message.header, frame)
@@ -150,7 +152,10 @@ class Inputs:
             raise InvalidMessageError(
                 f'contacts must number at most {settings.max_request_size} (parameter '
                 f'max_request_size), got {len(items)}')
-        return read(message, settings.contact_defaults, transform), frame
+        contacts = read(message, settings.contact_defaults, transform)
+        if not len(contacts):
+            raise NoContactsError('the newest contact message holds no contacts')
+        return Grasp(contacts, settings.force_bound), frame
 
     def transform(self, header, frame):
         """Transform from a header's frame to the object frame; None for the identity."""
@@ -180,7 +185,7 @@ class Inputs:
         return (now - stamp) * 1e-9, (now - arrival) * 1e-9
 
 
-def measured_margin(scene, slip_margin, grasp):
+def measured_margin(scene):
     """
     Smallest slip margin of the measured contacts, in [-1, 1]; None when none was measured.
 
@@ -192,4 +197,4 @@ def measured_margin(scene, slip_margin, grasp):
         return None
     measured = np.array([np.zeros(4) if f is None else f for f in scene.forces])
     known = [f is not None for f in scene.forces]
-    return float(np.clip(slip_margin(grasp, measured)[known], -1.0, 1.0).min())
+    return float(np.clip(slip_margin(scene.grasp, measured)[known], -1.0, 1.0).min())

@@ -12,8 +12,7 @@ import time
 
 from std_msgs.msg import Header
 
-from grasp_quality.grasp import Grasp
-from grasp_quality.measures import evaluate, slip_margin
+from grasp_quality.measures import evaluate
 from grasp_quality.node_inputs import measured_margin
 from grasp_quality.solution import PolytopeSolution
 from grasp_quality.task import TaskCone, TaskPolytope
@@ -60,13 +59,13 @@ class LiveLoop:
 
     def _answer(self, scene):
         settings = self._settings()
-        grasp = Grasp(scene.contacts, settings.force_bound)
         started = time.perf_counter()
         task, load = self._task_and_load(scene.frame)
-        solution = evaluate(grasp, task, load, settings.barrier_weight, settings.solver_time_limit)
+        solution = evaluate(
+            scene.grasp, task, load, settings.barrier_weight, settings.solver_time_limit)
         solve_time = time.perf_counter() - started
         solution, wrench = _governing(task, solution)
-        margin = measured_margin(scene, slip_margin, grasp)
+        margin = measured_margin(scene)
         quality = GraspQuality(
             header=Header(stamp=scene.stamp, frame_id=scene.frame),
             result=status_result(solution.status), task_wrench=to_wrench(wrench),
@@ -75,7 +74,7 @@ class LiveLoop:
             friction_margin=solution.friction_margin, limiting_contact=solution.limiting_contact,
             contact_age=to_duration(self._inputs.age_s()), solve_time=to_duration(solve_time),
             slip_measured=margin is not None, measured_slip_margin=margin or 0.0)
-        return quality, (grasp, solution.forces, solution.cone_usage)
+        return quality, (scene.grasp, solution.forces, solution.cone_usage)
 
     def _task_and_load(self, frame):
         inputs, limit = self._inputs, self._settings().max_request_size

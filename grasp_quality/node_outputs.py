@@ -12,6 +12,7 @@ import time
 
 from geometry_msgs.msg import WrenchStamped
 from rclpy.duration import Duration
+from rclpy.event_handler import PublisherEventCallbacks
 from std_msgs.msg import Float64, Header
 
 from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode
@@ -101,5 +102,8 @@ class Outputs:
             self._wrenches.setdefault(name, self._wrench_publisher(name))
 
     def _publisher(self, message_type, topic):
+        # an event handler a publisher would double what the executor waits for; whoever asks for
+        # more than these topics offer is told by their own subscription
         return self._node.create_lifecycle_publisher(
-            message_type, topic, qos.newest_command())
+            message_type, topic, qos.newest_command(),
+            event_callbacks=PublisherEventCallbacks(use_default_callbacks=False))

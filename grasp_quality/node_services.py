@@ -13,12 +13,11 @@ import time
 from std_msgs.msg import Header
 
 from grasp_quality.directions import force_grid
-from grasp_quality.grasp import Grasp
 from grasp_quality.holding import minimum_forces
 from grasp_quality.measures import evaluate, wrench_map
 from grasp_quality.solution import Status
 from grasp_quality_msgs import srv
-from msg_adapters.errors import InvalidMessageError, NoContactsError, NotActiveError
+from msg_adapters.errors import InvalidMessageError, NotActiveError
 from msg_adapters.forces import force_array
 from msg_adapters.results import error_result, status_result
 from msg_adapters.stamps import to_duration
@@ -63,17 +62,14 @@ class Services:
         return answer
 
     def _question(self, request):
-        """Grasp, header of the answer, transform of the request's wrenches, load, time limit."""
+        """Grasp, header of the answer, transform of the request's wrenches, load."""
         if request.contacts.contacts:
-            contacts, frame = self._inputs.read_contacts(request.contacts)
+            grasp, frame = self._inputs.read_grasp(request.contacts)
             stamp = request.contacts.header.stamp
         else:
             scene = self._inputs.scene()
-            contacts, frame, stamp = scene.contacts, scene.frame, scene.stamp
-        if not len(contacts):
-            raise NoContactsError('the request holds no contacts and none were received')
+            grasp, frame, stamp = scene.grasp, scene.frame, scene.stamp
         transform = self._inputs.transform(request.header, frame)
-        grasp = Grasp(contacts, self._settings().force_bound)
         load = load_from(request.external_wrench, transform)
         return grasp, Header(stamp=stamp, frame_id=frame), transform, load
 
