@@ -45,13 +45,14 @@ def claim_domain():
 class Process:
     """A child in a session of its own, with a log file."""
 
-    def __init__(self, command, log):
+    def __init__(self, command, log, cwd=None):
         self._log = Path(log)
         environment = {**os.environ, 'ROS_DOMAIN_ID': str(claim_domain()[0])}
         with open(self._log, 'wb') as output:
             self.popen = subprocess.Popen(
                 [str(part) for part in command], stdin=subprocess.DEVNULL, stdout=output,
-                stderr=subprocess.STDOUT, start_new_session=True, env=environment)
+                stderr=subprocess.STDOUT, start_new_session=True, env=environment,
+                cwd=cwd)
 
     def log(self):
         """Return what the process has printed."""
@@ -113,6 +114,10 @@ class Client:
         """Return the time as a stamp."""
         return self.node.get_clock().now().to_msg()
 
+    def spin_once(self, timeout_s):
+        """Run one callback that is ready, or becomes so in time."""
+        self._executor.spin_once(timeout_sec=timeout_s)
+
     def until(self, condition, what, feed=None):
         """Spin until the condition gives something true, and return it; feed() every 10 ms."""
         deadline = time.monotonic() + DEADLINE_S
@@ -123,7 +128,7 @@ class Client:
             if feed is not None and now >= due:
                 feed()
                 due = now + FEED_PERIOD_S
-            self._executor.spin_once(timeout_sec=0.5 * FEED_PERIOD_S)
+            self.spin_once(0.5 * FEED_PERIOD_S)
         return result
 
     def call(self, kind, name, feed=None, /, **fields):

@@ -128,7 +128,9 @@ def test_task_and_load_stream_in(client, outputs, feed):
         tasks.publish(WrenchStamped(header=Header(frame_id='object'), wrench=wrench(fy=2.0)))
         loads.publish(WrenchStamped(wrench=wrench(fz=-12.0)))
 
-    found = outputs.answer(all_three, near(8.0))
+    outputs.answer(all_three, near(8.0))
+    found = outputs.answer(stream)
+    assert found.quality.alpha == pytest.approx(8.0, rel=SOLVER)
     np.testing.assert_allclose(
         total_wrench(found.forces), [0, 16, 12, 0, 0, 0], atol=1e-5)
     set_task(client, kind=1, task_wrench=wrench(fy=2.0))

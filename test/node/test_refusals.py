@@ -152,7 +152,7 @@ def test_a_default_response_is_no_success():
 
 def test_a_solver_without_time_says_so(start):
     client = start(solver_time_limit=MICROSECOND).client
-    for question in (task(), cone(), polytope(), directions(UP), load(1.0)):
+    for question in (task(), cone(), polytope(), load(1.0)):
         check_refusal(client, question, ResultCode.TIMED_OUT, 'time limit')
 
 
