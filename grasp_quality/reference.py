@@ -56,9 +56,9 @@ def state_task_wrench(grasp, wrench, external_wrench=None, barrier_weight=0.0):
     Parameters
     ----------
     grasp : Grasp
-    wrench : (6,) array_like [N, N m]
+    wrench : (6,) array_like or cvxpy.Parameter [N, N m]
         F, about the object frame's origin.
-    external_wrench : (6,) array_like [N, N m], optional
+    external_wrench : (6,) array_like or cvxpy.Parameter [N, N m], optional
     barrier_weight : float
         eps >= 0, in the unit of alpha.
 
@@ -73,7 +73,7 @@ def state_task_wrench(grasp, wrench, external_wrench=None, barrier_weight=0.0):
         objective = alpha + barrier_weight * sum(
             _log_det(c, x) for c, x in zip(grasp.contacts, forces))
     return Statement(grasp, cp.Problem(cp.Maximize(objective), [
-        _wrench(grasp, forces) + _load(external_wrench) == alpha * np.asarray(wrench, float),
+        _wrench(grasp, forces) + _load(external_wrench) == alpha * _numbers(wrench),
         *_cones(grasp, forces),
         *_bound(grasp, forces[:, 2], 1.0)]), forces, alpha)
 
@@ -149,7 +149,11 @@ def _wrench(grasp, forces):
 
 
 def _load(external_wrench):
-    return np.zeros(6) if external_wrench is None else np.asarray(external_wrench, float)
+    return np.zeros(6) if external_wrench is None else _numbers(external_wrench)
+
+
+def _numbers(wrench):
+    return wrench if isinstance(wrench, cp.Expression) else np.asarray(wrench, dtype=np.float64)
 
 
 def _parts(contact, x):
