@@ -48,6 +48,8 @@ def main(args=None):
         node.destroy_node()
     finally:
         rclpy.try_shutdown()
+        for number in (signal.SIGINT, signal.SIGTERM):  # one more while Python ends is no crash
+            signal.signal(number, signal.SIG_IGN)
     return 0
 
 
