@@ -32,15 +32,16 @@ def start(tmp_path_factory):
         namespace = f'/hand_{next(NUMBERS)}'
         log = tmp_path_factory.mktemp('node') / 'log.txt'
         process = start_node(log, namespace, *arguments, **parameters)
+        begun.append(SimpleNamespace(namespace=namespace, process=process, client=None))
         # a participant that is there before the node's endpoints are learns of them 2 s later
         process.until_it_says('active')
-        begun.append(SimpleNamespace(
-            namespace=namespace, process=process, client=Client(namespace)))
+        begun[-1].client = Client(namespace)
         return begun[-1]
 
     yield begin
     for node in begun:
-        node.client.close()
+        if node.client is not None:
+            node.client.close()
         if node.process.popen.poll() is None:
             assert node.process.end() == 0, node.process.log()
         assert 'internal error' not in node.process.log()

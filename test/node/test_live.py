@@ -12,7 +12,7 @@ from grasps import (
     wrench)
 from harness import BEST_EFFORT
 from msg_adapters.poses import pose_arrays
-from msg_adapters.stamps import seconds
+from msg_adapters.stamps import seconds, stamp_ns
 import numpy as np
 from outputs import Outputs
 import pytest
@@ -165,6 +165,23 @@ def test_a_load_beyond_the_grasp_is_infeasible(client, outputs, feed):
     assert quality.task_wrench == wrench(fx=1.0) and quality.header.frame_id == 'object'
     set_task(client, kind=1, task_wrench=wrench(fx=1.0))
     outputs.answer(feed(CIRCLE), near(10.0))
+
+
+def test_of_a_burst_the_newest_is_answered_and_nothing_goes_back(client, outputs):
+    publisher = client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
+    newest = []
+
+    def burst():
+        messages = [pose_array(EIGHT, client.now()) for _ in range(20)]
+        for message in messages:
+            publisher.publish(message)
+        newest.append(messages[-1].header.stamp)
+
+    outputs.forget()
+    client.until(
+        lambda: any(m.header.stamp in newest for m in outputs.quality), 'the newest', burst)
+    stamps = [stamp_ns(m.header.stamp) for m in outputs.quality]
+    assert stamps == sorted(stamps)
 
 
 def test_services_use_the_latest_contacts(client, outputs, feed):
