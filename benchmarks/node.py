@@ -4,12 +4,9 @@
 The node from outside: round trips by service and by topic, and the live loop at 200 Hz.
 
 Node and client are processes of their own on Fast DDS over UDP, with 8 contacts. The same client
-measures a process that only echoes (``node_echo``), for scale. Run alone as
-``python -m benchmarks.node``; it rewrites its section of docs/performance.md.
-
+measures a process that only echoes (``node_echo``), for scale.
 """
 
-import argparse
 from contextlib import contextmanager
 from dataclasses import dataclass
 import os
@@ -18,26 +15,24 @@ import sys
 import tempfile
 import time
 
-import numpy as np
-
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / 'test' / 'node'))
 os.environ.update({
     'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'})
 
+from benchmarks import document  # noqa: E402
 from geometry_msgs.msg import PoseArray  # noqa: E402
 from grasp_quality_msgs.msg import GraspQuality, ResultCode  # noqa: E402
 from grasp_quality_msgs.srv import EvaluateTaskWrench  # noqa: E402
 from grasps import EIGHT, pose_array, wrench  # noqa: E402
 from harness import BEST_EFFORT, Client, Process, start_node  # noqa: E402
 from msg_adapters.stamps import seconds, stamp_ns  # noqa: E402
+import numpy as np  # noqa: E402
 
 SAMPLES, WARM_UP = 2000, 200
 RATE_HZ, LIVE_S = 200.0, 60.0
 LOST_S = 1.0  # an answer that takes longer counts as lost
 TASK = '[0.0, 0.0, 1.0, 0.0, 0.0, 0.0]'
-DOCUMENT = ROOT / 'docs' / 'performance.md'
-BEGIN, END = '<!-- node:begin -->', '<!-- node:end -->'
 
 
 @dataclass
@@ -49,22 +44,24 @@ class RoundTrips:
     lost: int = 0
 
     def row(self, name):
-        """Write one line of the table."""
-        share = np.median(self.solving) / np.median(self.total)
-        return (f'| {name} | {np.median(self.total):.3f} | {np.percentile(self.total, 99):.3f} | '
-                f'{np.median(self.solving):.3f} | {100 * share:.0f} % | {len(self.total)} | '
-                f'{self.lost} |')
+        """Return the cells of a line of the table."""
+        median, p99 = np.median(self.total), np.percentile(self.total, 99)
+        solving = np.median(self.solving)
+        return (name, f'{median:.3f}', f'{p99:.3f}', f'{solving:.3f}',
+                f'{100 * solving / median:.0f} %', len(self.total), self.lost)
 
 
 @contextmanager
 def running(process, namespace):
     """Wait for a process, give a client for it, end both."""
-    process.until_it_says('active')
-    client = Client(namespace)
     try:
-        yield client
+        process.until_it_says('active')
+        client = Client(namespace)
+        try:
+            yield client
+        finally:
+            client.close()
     finally:
-        client.close()
         process.end()
 
 
@@ -136,8 +133,8 @@ def live_loop(client, pid):
         contacts.publish(message)
     elapsed, used = time.perf_counter() - begin, cpu_s(pid) - used
     last = time.perf_counter()
-    while time.perf_counter() - last < LOST_S and len(heard) < count:
-        client.spin_once(0.1)
+    while time.perf_counter() - last < 0.05:  # the silence that follows is no failure yet
+        client.spin_once(0.01)
     answers = [m for m in heard if m.result.code == ResultCode.OPTIMAL]
     ages = 1e3 * np.array([seconds(m.contact_age) for m in answers])
     answered = len(sent & {stamp_ns(m.header.stamp) for m in answers})
@@ -153,7 +150,7 @@ def cpu_s(pid):
 
 def measure():
     """Measure everything; return the lines of the section."""
-    load = os.getloadavg()[0]
+    machine = document.machine()
     rows = []
     echo = Process([sys.executable, '-m', 'benchmarks.node_echo', '/echo'], log_file(), cwd=ROOT)
     with running(echo, '/echo') as client:
@@ -168,50 +165,22 @@ def measure():
     node = start_node(log_file(), '/bench', task_wrench=TASK)
     with running(node, '/bench') as client:
         live = live_loop(client, node.popen.pid)
-    return section(rows, live, load)
+    return section(rows, live, machine)
 
 
-def section(rows, live, load):
+def section(rows, live, machine):
     """Write the section as Markdown."""
     late = int((live['ages'] > 1e3 / RATE_HZ).sum())
     return '\n'.join([
         '## The node', '',
-        f'Separate processes, {len(EIGHT)} contacts, Fast DDS over UDP, Python '
-        f'{sys.version.split()[0]}, {os.cpu_count()} cores; load of the machine before: '
-        f'{load:.1f}. "Echo" answers with a message made before: it is what rclpy itself takes. '
-        'Of the service, solving is the whole of the handler.', '',
-        '| round trip | median [ms] | p99 [ms] | solving [ms] | share | samples | lost |',
-        '|---|---|---|---|---|---|---|', *rows, '',
+        f'Separate processes, {len(EIGHT)} contacts, Fast DDS over UDP; {machine}', '',
+        '"Echo" answers with a message made before: it is what rclpy itself takes. Of the service, '
+        'solving is the whole of the handler.', '',
+        document.table(['round trip', 'median [ms]', 'p99 [ms]', 'solving [ms]', 'share',
+                        'samples', 'lost'], rows), '',
         f'Live loop, contacts at {live["rate"]:.0f} Hz for {LIVE_S:.0f} s: '
         f'{live["answered"]} of {live["sent"]} samples answered '
         f'({100 * live["answered"] / live["sent"]:.2f} %), {live["failures"]} failures; contacts '
         f'at most {live["ages"].max():.2f} ms old when answered (median '
         f'{np.median(live["ages"]):.2f}, p99 {np.percentile(live["ages"], 99):.2f}; {late} older '
         f'than one period of {1e3 / RATE_HZ:.0f} ms); the node used {live["cpu"]:.2f} of a core.'])
-
-
-def write(text):
-    """Replace the section between the markers of docs/performance.md; append it where none is."""
-    whole = f'{BEGIN}\n{text}\n{END}'
-    document = DOCUMENT.read_text() if DOCUMENT.exists() else '# Performance\n'
-    if BEGIN in document:
-        before, _, rest = document.partition(BEGIN)
-        document = before + whole + rest.partition(END)[2]
-    else:
-        document = f'{document.rstrip()}\n\n{whole}\n'
-    DOCUMENT.write_text(document)
-
-
-def main():
-    """Measure, print and write."""
-    parser = argparse.ArgumentParser(description='Measure the node from outside.')
-    parser.add_argument('--dry', action='store_true', help='print only, leave the document alone')
-    dry = parser.parse_args().dry
-    text = measure()
-    print(text)
-    if not dry:
-        write(text)
-
-
-if __name__ == '__main__':
-    main()

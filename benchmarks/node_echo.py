@@ -3,7 +3,8 @@
 """
 The least that rclpy can do: the node's service and topic, answered with a message made before.
 
-Run by benchmarks.node in a process of its own, as the node is: python -m benchmarks.node_echo /namespace
+Run by benchmarks.node in a process of its own, as the node is:
+``python -m benchmarks.node_echo /namespace``.
 
 """
 
