@@ -174,8 +174,8 @@ def section(rows, live, machine):
     return '\n'.join([
         '## The node', '',
         f'Separate processes, {len(EIGHT)} contacts, Fast DDS over UDP; {machine}', '',
-        '"Echo" answers with a message made before: it is what rclpy itself takes. Of the service, '
-        'solving is the whole of the handler.', '',
+        '"Echo" answers with a message made before: it is what rclpy itself takes. Of the '
+        'service, solving is the whole of the handler.', '',
         document.table(['round trip', 'median [ms]', 'p99 [ms]', 'solving [ms]', 'share',
                         'samples', 'lost'], rows), '',
         f'Live loop, contacts at {live["rate"]:.0f} Hz for {LIVE_S:.0f} s: '
