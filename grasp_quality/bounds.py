@@ -8,9 +8,8 @@ Contacts are partitioned into groups, and each group obeys sum_i n_i / f_max,i <
 Euclidean norm of all n_i / f_max,i instead (the paper's norms on the normals, section II).
 """
 
-import numpy as np
-
 from grasp_quality.exceptions import InvalidGraspError
+import numpy as np
 
 BOUNDS = ('l1', 'l2', 'linf', 'finger')
 
@@ -61,12 +60,18 @@ def gauge(shares, bound, groups):
     ----------
     shares : (k,) array
         n_i / f_max,i.
+    bound : str
+        One of ``BOUNDS``.
+    groups : (k,) tuple of int
+        Group of each contact, from ``groups_of``.
 
     Returns
     -------
     float, at most 1 when the bound holds.
 
     """
+    if bound == 'linf':
+        return float(shares.max())
     if bound == 'l2':
         return float(np.sqrt(shares @ shares))
     return float(np.bincount(groups, weights=shares).max())
@@ -80,6 +85,10 @@ def support(values, bound, groups):
     ----------
     values : (k,) array
         Worth of each contact's normal force at its cap.
+    bound : str
+        One of ``BOUNDS``.
+    groups : (k,) tuple of int
+        Group of each contact, from ``groups_of``.
 
     """
     worth = np.maximum(values, 0.0)

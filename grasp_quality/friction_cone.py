@@ -42,9 +42,11 @@ def usage(forces, scales, max_normal_force, unloaded=UNLOADED):
     Parameters
     ----------
     forces : (k, 4) array [N, N, N, N m]
+        [t1, t2, n, m_n] in the contact frames, finger on object.
     scales : (k, 4) array
         From ``coordinate_scales``.
     max_normal_force : (k,) array [N]
+        Cap f_max of each contact, the measure of ``unloaded``.
     unloaded : float
         A contact with n and |(t/mu, m_n/gamma)| below this share of its cap has usage 0: what a
         solver leaves on a contact that it does not need points anywhere.
@@ -62,17 +64,19 @@ def usage_of_shares(shares, unloaded=UNLOADED):
     ----------
     shares : (..., k, 4) array
         [t1/mu, t2/mu, n, m_n/gamma] / f_max, with zeros where a contact carries nothing.
+    unloaded : float
+        As for ``usage``.
 
     """
-    t1, t2, normal, moment = (shares[..., i] for i in range(4))
-    return _share(np.sqrt(t1 * t1 + t2 * t2 + moment * moment), normal, unloaded)
+    squares = shares * shares
+    norm = np.sqrt(squares[..., 0] + squares[..., 1] + squares[..., 3])
+    return _share(norm, shares[..., 2], unloaded)
 
 
 def _share(norm, normal, small):
-    with np.errstate(divide='ignore', invalid='ignore'):
-        share = np.where(normal > 0.0, norm / normal, np.inf)
-    idle = ((np.abs(normal) <= small) & (norm <= small)) | ((norm == 0.0) & (normal >= 0.0))
-    return np.where(idle, 0.0, share)
+    share = np.divide(norm, normal, where=normal > 0.0, out=np.full(norm.shape, np.inf))
+    share[np.maximum(np.abs(normal), norm) <= small] = 0.0
+    return share
 
 
 def support(local_wrench, scales):
@@ -87,6 +91,7 @@ def support(local_wrench, scales):
     local_wrench : (k, 4) array
         h of every contact.
     scales : (k, 4) array
+        From ``coordinate_scales``.
 
     """
     h = local_wrench * scales

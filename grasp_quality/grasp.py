@@ -9,8 +9,7 @@ on the object about the object frame's origin. Everything derived is computed on
 
 from dataclasses import dataclass
 from functools import cached_property
-
-import numpy as np
+import math
 
 from grasp_quality import bounds
 from grasp_quality.arrays import frozen
@@ -18,7 +17,8 @@ from grasp_quality.contact import Contact
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidGraspError
 from grasp_quality.friction_cone import coordinate_scales
-from grasp_quality.wrench import cross, shift
+from grasp_quality.wrench import shift, skew
+import numpy as np
 
 RANK_TOLERANCE = 1e-9  # singular values below this share of the largest count as zero
 COINCIDENT = 1e-8      # distance over distance from the origin: float64 keeps 1e-16 of the latter
@@ -94,9 +94,14 @@ class Grasp:
         return frozen(self._matrix_about(self.positions))
 
     @cached_property
+    def centered_matrix(self):
+        """Grasp matrix (6, k, 4) with torques about ``center``."""
+        return frozen(self._matrix_about(self.positions - self.center))
+
+    @cached_property
     def center(self):
         """Mean of the contact points (3,) [m]: the reference point of the scaled problem."""
-        return frozen(self.positions.mean(axis=0))
+        return frozen(self.positions.sum(axis=0) / len(self))
 
     @cached_property
     def lever_arm(self):
@@ -109,8 +114,8 @@ class Grasp:
 
         """
         offsets = self.positions - self.center
-        reach = float(np.sqrt((offsets * offsets).sum(axis=1).max()))
-        away = float(np.abs(self.positions).max())
+        reach = math.sqrt((offsets * offsets).sum(axis=1).max())
+        away = max(map(abs, self.center.tolist()))
         if reach > COINCIDENT * away:
             return reach
         return float(self.scales[:, 3].max()) or away or 1.0
@@ -124,9 +129,8 @@ class Grasp:
         of the largest cap and torques about ``center`` as shares of that times ``lever_arm``.
 
         """
-        G = self._matrix_about(self.positions - self.center)
+        G = self.centered_matrix * (self.force_units / self.force_scale)
         G[3:] /= self.lever_arm
-        G *= self.force_units / self.force_scale
         return frozen(G)
 
     @cached_property
@@ -191,14 +195,14 @@ class Grasp:
         return scaled
 
     def wrench(self, forces):
-        """Object wrench (6,) [N, N m] about the origin of local forces (k, 4): G x."""
+        """Return G x (6,) [N, N m]: the object wrench of local forces (k, 4) about the origin."""
         return np.einsum('ijk,jk->i', self.matrix, forces)
 
     def _matrix_about(self, positions):
         R = self.rotations
         G = np.zeros((6, len(self.contacts), 4))
         G[:3, :, :3] = R.transpose(1, 0, 2)
-        G[3:, :, :3] = cross(positions[:, None, :], R.transpose(0, 2, 1)).transpose(2, 0, 1)
+        G[3:, :, :3] = (skew(positions) @ R).transpose(1, 0, 2)
         G[3:, :, 3] = R[:, :, 2].T
         return G
 

@@ -3,24 +3,25 @@
 """
 The proof that goes with every answer, computed apart from the solver, in plain numpy.
 
-From any multipliers (lambda for equilibrium, nu for the bound) weak duality gives an upper bound of
-the objective, once they are made exactly feasible: nu is recomputed from lambda through the support
-functions of the cones, and both are scaled until the virtual contact's condition holds
-(docs/derivations.md). From the forces come the equilibrium residual, the largest cone usage and the
-use of the bound. An answer counts only when ``Proof.holds``.
+From any multipliers (lambda for equilibrium, nu for the bound) weak duality gives an upper bound
+of the objective, once they are made exactly feasible: nu is recomputed from lambda through the
+support functions of the cones, and both are scaled until the virtual contact's condition holds
+(docs/derivations.md). From the forces come the equilibrium residual, the largest cone usage and
+the use of the bound. An answer counts only when ``Proof.holds``.
 """
 
 from dataclasses import dataclass
-
-import numpy as np
+import math
 
 from grasp_quality import bounds, friction_cone
 from grasp_quality.arrays import frozen
+import numpy as np
 
 GAP_TOLERANCE = 1e-6       # of max(objective, 1e-3 a0)
 RESIDUAL_TOLERANCE = 1e-8  # of the caps' total, torques over the lever arm
 USAGE_TOLERANCE = 1e-9     # over a cone usage, or a use of the bound, of one
 INFEASIBILITY_TOLERANCE = 1e-9  # of the caps' total: distance to any feasible load
+FREE_TASK = 1e-8  # share of lambda by which a task's worth may fall below zero
 ROUNDING = 1e-12  # share of a cap that may stand outside its cone unseen
 ENDLESS = 1e6  # times the caps: a load that needs more counts as one that no forces balance
 
@@ -85,6 +86,7 @@ def prove(problem, shares, values, multipliers):
     Parameters
     ----------
     problem : ConicProblem
+        Program that the answer belongs to.
     shares : (k, 4) array
         Local contact forces [t1/mu, t2/mu, n, m_n/gamma] as shares of the caps.
     values : (t,) array
@@ -99,10 +101,10 @@ def prove(problem, shares, values, multipliers):
 
     """
     grasp, virtual = problem.grasp, problem.virtual
-    nu, multipliers = problem.layout.contact_multipliers(multipliers), multipliers[:6]
+    nu, multipliers = multipliers, multipliers[:6]
     _, per_contact, bound_total = worth_of(grasp, multipliers)
     if virtual.role == 'pressing':  # here the least nu is not always the best
-        per_contact = np.maximum(per_contact, nu)
+        per_contact = np.maximum(per_contact, problem.layout.contact_multipliers(nu))
         bound_total = bounds.support(per_contact, grasp.bound, grasp.groups)
     slack = _virtual_slack(problem, multipliers, per_contact, bound_total)
     upper = multipliers @ problem.scaled_external_wrench
@@ -113,9 +115,10 @@ def prove(problem, shares, values, multipliers):
         scale = 1.0 / slack if slack > 0.0 else np.inf
     elif slack < -1.0:
         scale = -1.0 / slack
-    with np.errstate(invalid='ignore'):
+    if scale < np.inf:
         upper, multipliers, per_contact = upper * scale, multipliers * scale, per_contact * scale
-
+    else:
+        upper = np.inf
     if virtual.role == 'task' and virtual.objective[0] > 0.0:
         values = held(values, upper)
     balance = (grasp.scaled_matrix.reshape(6, -1) @ shares.ravel()
@@ -127,10 +130,10 @@ def prove(problem, shares, values, multipliers):
     pressed = shares[:, 2] + (values[0] if virtual.role == 'pressing' else 0.0)
     used = bounds.gauge(pressed, grasp.bound, grasp.groups)
     load = problem.scaled_external_wrench
-    size_of_forces = max(problem.reach * allowed, np.sqrt(load @ load))
+    size_of_forces = max(problem.reach * allowed, math.sqrt(load @ load))
     return Proof(
         objective=float(virtual.objective @ values), upper=float(upper),
-        residual=float(np.sqrt(balance @ balance)) / size_of_forces,
+        residual=math.sqrt(balance @ balance) / size_of_forces,
         usage=float(friction_cone.usage_of_shares(shares, unloaded=ROUNDING).max()),
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
         multiplier=frozen(multipliers), bound_multiplier=frozen(per_contact),
@@ -150,6 +153,7 @@ def infeasibility_margin(problem, direction):
     Parameters
     ----------
     problem : ConicProblem
+        Program that may be infeasible.
     direction : (6,) array
         Candidate lambda, in scaled units.
 
@@ -217,4 +221,8 @@ def _virtual_slack(problem, multipliers, per_contact, bound_total):
     along = multipliers @ virtual.columns
     if virtual.is_cone:
         return along[0] - np.sqrt(along[1:] @ along[1:])
-    return along[0] + (per_contact.sum() if virtual.role == 'pressing' else 0.0)
+    if virtual.role == 'pressing':
+        # the other variables are tasks, alpha >= 0: a lambda that gains by one bounds nothing
+        free = (along[1:] < -FREE_TASK * np.abs(multipliers).max()).any()
+        return -np.inf if free else along[0] + per_contact.sum()
+    return along[0]

@@ -56,9 +56,11 @@ def state_task_wrench(grasp, wrench, external_wrench=None, barrier_weight=0.0):
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
     wrench : (6,) array_like or cvxpy.Parameter [N, N m]
         F, about the object frame's origin.
     external_wrench : (6,) array_like or cvxpy.Parameter [N, N m], optional
+        F_ext, likewise; zero if None.
     barrier_weight : float
         eps >= 0, in the unit of alpha.
 
@@ -85,8 +87,11 @@ def state_task_cone(grasp, task, external_wrench=None):
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
     task : TaskCone
+        Axis, laterals and half angle, about the object frame's origin.
     external_wrench : (6,) array_like [N, N m], optional
+        F_ext, about the object frame's origin; zero if None.
 
     Returns
     -------
@@ -109,7 +114,9 @@ def state_minimum_forces(grasp, external_wrench):
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
     external_wrench : (6,) array_like [N, N m]
+        F_ext, about the object frame's origin.
 
     Returns
     -------
@@ -130,6 +137,7 @@ def state_force_closure(grasp):
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
 
     Returns
     -------

@@ -8,17 +8,16 @@ derived from the multipliers when they are read (docs/derivations.md); at a kink
 subgradient.
 """
 
-import enum
 from dataclasses import dataclass
+import enum
 from functools import cached_property
 
-import numpy as np
-
+from grasp_quality import sensitivity
 from grasp_quality.arrays import frozen
-from grasp_quality.contact import ContactModel
 from grasp_quality.grasp import Grasp
 from grasp_quality.proof import Proof
-from grasp_quality.wrench import cross
+from grasp_quality.wrench import skew
+import numpy as np
 
 NO_FORCES = frozen(np.zeros((0, 4)))
 NO_USAGE = frozen(np.zeros(0))
@@ -101,28 +100,23 @@ class Solution:
 
     @property
     def dalpha_dexternal_wrench(self):
-        """Derivative of the largest alpha by the external wrench (6,) [1/N, 1/(N m)]."""
+        """Return the slope of the largest alpha by the external wrench (6,) [1/N, 1/(N m)]."""
         return self.multiplier
 
     @cached_property
     def dalpha_dmax_force(self):
-        """Derivative of the largest alpha by each cap f_max (k,) [1/N]."""
+        """Return the slope of the largest alpha by each cap f_max (k,) [1/N]."""
         caps = self.grasp.max_normal_forces
         shares = self.reference_forces[:, 2] / caps if self.feasible else np.zeros(len(caps))
         return frozen(self.bound_multiplier * shares / caps)
 
     @cached_property
     def dalpha_dfriction(self):
-        """Derivative of the largest alpha by each friction coefficient mu (k,) [-]."""
+        """Return the slope of the largest alpha by each friction coefficient mu (k,) [-]."""
         if not self.feasible:
             return frozen(np.zeros(len(self.grasp)))
-        h = self._local_multipliers
-        mu = self.grasp.scales[:, 0]
-        tangential = np.sqrt(h[:, 0] ** 2 + h[:, 1] ** 2)
-        along = self._friction_worth
-        slope = np.where(along > 0.0, mu * tangential ** 2 / np.where(along > 0.0, along, 1.0),
-                         tangential)
-        return frozen(self.reference_forces[:, 2] * slope * self._has_friction)
+        slope = sensitivity.friction_slope(self.grasp, self._local_multipliers)
+        return frozen(self.reference_forces[:, 2] * slope)
 
     @cached_property
     def limiting_contact(self):
@@ -140,28 +134,20 @@ class Solution:
         """
         if self._limit is None:
             return ''
-        i = self._limit
-        return 'slip' if self._friction_worth[i] >= abs(self._local_multipliers[i, 2]) else 'cap'
+        return sensitivity.reason(self.grasp, self._local_multipliers, self._limit)
 
     @cached_property
     def _limit(self):
         worth = self.dalpha_dmax_force * self.grasp.max_normal_forces
-        best = int(np.argmax(worth))
-        return best if worth[best] > 1e-6 * max(self.alpha, 1e-300) else None
+        return sensitivity.limit(worth, self.alpha)
 
     @cached_property
     def _local_multipliers(self):
         """G_i^T lambda of every contact (k, 4)."""
-        return (self.multiplier @ self.grasp.matrix.reshape(6, -1)).reshape(-1, 4)
-
-    @cached_property
-    def _friction_worth(self):
-        h = self._local_multipliers * self.grasp.scales
-        return np.sqrt(h[:, 0] ** 2 + h[:, 1] ** 2 + h[:, 3] ** 2)
-
-    @cached_property
-    def _has_friction(self):
-        return np.array([m is not ContactModel.FPC for m in self.grasp.contacts.models])
+        # about the contacts' centre, where nothing cancels: a wrench's worth moves like a velocity
+        grasp, worth = self.grasp, self.multiplier.copy()
+        worth[:3] += skew(worth[3:]) @ grasp.center
+        return (worth @ grasp.centered_matrix.reshape(6, -1)).reshape(-1, 4)
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,6 +232,7 @@ class WrenchMap:
 def dimensional_multiplier(problem, multiplier):
     """Turn a scaled lambda (6,) into d alpha / d F_ext about the object frame's origin."""
     grasp = problem.grasp
-    per_unit = multiplier * (problem.virtual.unit / grasp.force_scale)
-    torque = per_unit[3:] / grasp.lever_arm
-    return frozen(np.concatenate([per_unit[:3] - cross(torque, grasp.center), torque]))
+    worth = multiplier * (problem.virtual.unit / grasp.force_scale)
+    worth[3:] /= grasp.lever_arm
+    worth[:3] -= skew(worth[3:]) @ grasp.center
+    return frozen(worth)

@@ -7,10 +7,14 @@ A wrench is a plain (6,) array. Moving one between frames is the adjoint transfo
 its reference point leaves the force alone and changes the torque by a cross product.
 """
 
-import numpy as np
-
 from grasp_quality.arrays import checked
 from grasp_quality.exceptions import InvalidTaskError
+import numpy as np
+
+# v @ LEVI_CIVITA is [v]x, flattened
+LEVI_CIVITA = np.zeros((3, 9))
+LEVI_CIVITA[[0, 1, 2], [7, 2, 3]] = 1.0
+LEVI_CIVITA[[0, 1, 2], [5, 6, 1]] = -1.0
 
 
 def as_wrench(value, name='wrench', error=InvalidTaskError):
@@ -35,7 +39,7 @@ def shift(wrenches, point):
 
     """
     shifted = np.array(wrenches, dtype=np.float64)
-    shifted[..., 3:] -= cross(point, shifted[..., :3])
+    shifted[..., 3:] -= shifted[..., :3] @ skew(point).T
     return shifted
 
 
@@ -59,7 +63,12 @@ def transform(wrench, R_target_source, p_target_source):
     """
     force = R_target_source @ wrench[:3]
     return np.concatenate(
-        [force, R_target_source @ wrench[3:] + cross(p_target_source, force)])
+        [force, R_target_source @ wrench[3:] + skew(p_target_source) @ force])
+
+
+def skew(vectors):
+    """Matrices [v]x (..., 3, 3) of vectors (..., 3), with [v]x b = v x b."""
+    return (vectors @ LEVI_CIVITA).reshape(*np.shape(vectors), 3)
 
 
 def cross(a, b):

@@ -41,7 +41,7 @@ def test_an_overload_is_no_solution():
 def test_time_limit():
     problem = build_problem(antipodal(0.5), TaskWrench(FY))
     with pytest.raises(SolverTimeoutError, match='time limit') as caught:
-        run(problem, time_limit_s=1e-9)
+        run(problem, limit=TimeLimit(1e-9))
     assert caught.value.problem is problem
 
 

@@ -51,7 +51,7 @@ def test_overload_does_not_count_as_solved():
 
 def test_time_limit():
     with pytest.raises(SolverTimeoutError, match='time limit'):
-        kernel_solver.run(build_problem(antipodal(), TaskWrench(FY)), time_limit_s=0.0)
+        kernel_solver.run(build_problem(antipodal(), TaskWrench(FY)), limit=TimeLimit(0.0))
 
 
 def test_answers_stay_when_others_are_asked_for():

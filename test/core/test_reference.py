@@ -31,11 +31,11 @@ def test_barrier(bound):
         grasp = random_grasp(rng, count=5, bound=bound)
         wrench, load = -random_load(rng, grasp), random_load(rng, grasp)
         stated = reference.state_task_wrench(grasp, wrench, load, barrier_weight=0.1)
-        assert stated.solve(tol_gap_abs=1e-9, tol_gap_rel=1e-9, tol_feas=1e-9)
+        assert stated.solve(tol_gap_abs=1e-8, tol_gap_rel=1e-8, tol_feas=1e-8)
         solution = evaluate(grasp, TaskWrench(wrench), external_wrench=load, barrier_weight=0.1)
         # an optimum that is flat is known to the root of its objective's tolerance only
-        assert solution.alpha == pytest.approx(float(stated.value.value), abs=1e-4)
-        assert solution.forces == pytest.approx(stated.forces.value, abs=1e-3)
+        assert solution.alpha == pytest.approx(float(stated.value.value), abs=1e-3)
+        assert solution.forces == pytest.approx(stated.forces.value, abs=1e-2)
 
 
 @pytest.mark.parametrize('bound', BOUNDS)
