@@ -4,20 +4,20 @@
 Task-oriented grasp quality: how much of a task wrench a grasp can apply, with which forces.
 
 After R. Haschke, J. J. Steil, I. Steuwer, H. Ritter, "Task-Oriented Quality Measures for Dextrous
-Grasping" (2005). Conventions: SI units; wrenches [fx fy fz tx ty tz] about the origin of the object
-frame; contact frames with +z along the inward normal; forces are those the finger applies on the
-object. See docs/conventions.md.
+Grasping" (2005). Conventions: SI units; wrenches [fx fy fz tx ty tz] about the origin of the
+object frame; contact frames with +z along the inward normal; forces are those the finger applies
+on the object. See docs/conventions.md.
 """
 
-from grasp_quality.closure import ForceClosure, force_closure
+from grasp_quality.closure import force_closure, ForceClosure
 from grasp_quality.contact import Contact, ContactModel
 from grasp_quality.exceptions import (
     GraspQualityError, InvalidContactError, InvalidGraspError, InvalidTaskError, SolverError,
     SolverTimeoutError)
 from grasp_quality.grasp import Grasp
-from grasp_quality.holding import MinimumForces, minimum_forces
+from grasp_quality.holding import minimum_forces, MinimumForces
 from grasp_quality.measures import evaluate, slip_margin, wrench_map
-from grasp_quality.problem import ConicProblem, build_problem
+from grasp_quality.problem import build_problem, ConicProblem
 from grasp_quality.solution import ConeSolution, PolytopeSolution, Solution, Status, WrenchMap
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench

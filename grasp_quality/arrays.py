@@ -12,6 +12,7 @@ def checked(value, shape, name, error):
     Parameters
     ----------
     value : array_like
+        What the caller gave; it is left as it is.
     shape : tuple of int or None
         Expected shape; None stands for any length of that axis.
     name : str

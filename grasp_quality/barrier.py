@@ -13,19 +13,19 @@ alpha_upper - alpha is the price of the margin.
 
 import dataclasses
 
-import numpy as np
-
 from grasp_quality import friction_cone, kernel_solver
 from grasp_quality.arrays import frozen
 from grasp_quality.bounds import gauge, support
 from grasp_quality.centering import weighted_center
 from grasp_quality.exceptions import SolverError
-from grasp_quality.problem import VirtualContact, assemble
+from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.proof import GAP_TOLERANCE, prove
 from grasp_quality.solution import Status
 from grasp_quality.solve import prove_optimal, task_share
+import numpy as np
 
-# weights of what eq. (11) gives none; a cone's edge is only as sharp as rounding, which goes by eps
+# weights of what eq. (11) gives none; a cone's edge is only as sharp as rounding, which goes by
+# eps
 NO_WEIGHT_LINE = 1e-13
 NO_WEIGHT_CONE = 1e-9
 NEGLIGIBLE = 1e-8          # share of a0 below which the task counts as not served at all
@@ -95,7 +95,7 @@ def _log_det(grasp, shares):
 
 def _center(problem, eps, with_task):
     """
-    Forces as shares (k, 4), values (t,) and multipliers of the weighted centre, or None.
+    Find the weighted centre: forces as shares (k, 4), values (t,) and multipliers, or None.
 
     A task that cannot be served at all leaves alpha no interior, and is left out: alpha is 0.
 
@@ -149,6 +149,7 @@ def objective_upper(problem, multipliers, eps, proof):
     Parameters
     ----------
     problem : ConicProblem
+        The task without the barrier term.
     multipliers : (equations,) array
         lambda, in scaled units, and the multipliers of the bound's equations behind it.
     eps : float

@@ -13,14 +13,13 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 import os
 
-import numpy as np
-
 from grasp_quality import kernel, proof
 from grasp_quality.friction_cone import usage_of_shares
-from grasp_quality.problem import NO_WRENCH, build_problem
+from grasp_quality.problem import build_problem, NO_WRENCH
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskWrench
 from grasp_quality.wrench import as_wrench
+import numpy as np
 
 SMALL = 128  # wrenches that are not worth a thread
 
@@ -55,9 +54,11 @@ def solve_wrenches(grasp, wrenches, external_wrench=None, time_limit_s=None):
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
     wrenches : (N, 6) array [N, N m]
         None of them zero.
     external_wrench : (6,) array_like [N, N m], optional
+        What the world applies on the object, about the object frame's origin; zero if None.
     time_limit_s : float, optional
         Of each wrench that is solved by itself [s].
 

@@ -12,10 +12,9 @@ rows x rows a step. Clarabel states the same with exponential cones, but an obje
 proved to 1e-9 fixes a smooth optimum only to the square root of that (docs/decisions.md).
 """
 
+from grasp_quality.cone_algebra import divide, is_interior, largest_step, product, Scaling
 import numpy as np
-from scipy.linalg import LinAlgError, cho_factor, cho_solve
-
-from grasp_quality.cone_algebra import Scaling, divide, is_interior, largest_step, product
+from scipy.linalg import cho_factor, cho_solve, LinAlgError
 
 MAX_ITERATIONS = 80
 STEP_SHARE = 0.95    # of the way to the edge of the cones
@@ -36,7 +35,9 @@ def weighted_center(E, e, c, weights):
     E : (rows, blocks, d) array
         Equations, with zero columns where a block is padded.
     e : (rows,) array
+        Right side of the equations E u = e.
     c : (blocks, d) array
+        Objective, maximised: c . u + sum_i w_i log det u_i.
     weights : (blocks,) array
         w > 0 of each cone, for log det; half of what a half line's own logarithm would have.
 

@@ -13,14 +13,13 @@ leaves here as a SolverError with the problem attached.
 from functools import lru_cache
 
 import clarabel
+from grasp_quality.exceptions import SolverError, SolverTimeoutError
+from grasp_quality.raw_answer import RawAnswer
 import numpy as np
 from scipy.sparse import csc_matrix
 
-from grasp_quality.exceptions import SolverError, SolverTimeoutError
-from grasp_quality.raw_answer import RawAnswer
-
-# (gap, feasibility, static regularisation, equilibration), tried in order until the proof holds; the
-# first is met by 99 of 100 problems, the others by what it leaves (docs/decisions.md)
+# (gap, feasibility, static regularisation, equilibration), tried in order until the proof holds;
+# the first is met by 99 of 100 problems, the others by what it leaves (docs/decisions.md)
 ATTEMPTS = (
     (1e-9, 3e-9, 1e-8, True),
     (1e-8, 1e-9, 1e-12, False),
@@ -36,6 +35,7 @@ def run(problem, attempt=0, time_limit_s=None):
     Parameters
     ----------
     problem : ConicProblem
+        Program in scaled standard form.
     attempt : int
         Which of ``ATTEMPTS`` to make.
     time_limit_s : float, optional

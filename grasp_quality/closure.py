@@ -1,7 +1,7 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Force closure: can the contacts resist every wrench, however small the disturbance?
+Force closure: whether the contacts can resist every wrench, if only it is small enough.
 
 A grasp has force closure when its matrix has rank 6 and there is an internal force strictly
 inside all friction cones. The margin of the second is itself a conic program: a common share of
@@ -10,10 +10,9 @@ the caps, pressed by every contact on top of forces inside the cones, as the vir
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from grasp_quality.problem import VirtualContact, assemble
+from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.solve import prove_optimal
+import numpy as np
 
 MARGIN_TOLERANCE = 1e-8  # share of the caps below which an internal force is not strict
 
@@ -46,6 +45,7 @@ def force_closure(grasp, time_limit_s=None):
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
     time_limit_s : float, optional
         [s]
 

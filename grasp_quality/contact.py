@@ -8,13 +8,12 @@ three models nest: FPC transmits n >= 0; PCWF adds |t| <= mu n; SFCE couples the
 with a moment about the normal, |t|^2 / mu^2 + m_n^2 / gamma^2 <= n^2 (the paper, section II).
 """
 
-import enum
 from dataclasses import dataclass
-
-import numpy as np
+import enum
 
 from grasp_quality.arrays import checked, checked_number, frozen
 from grasp_quality.exceptions import InvalidContactError
+import numpy as np
 
 IDENTITY = frozen(np.eye(3))
 ROTATION_TOLERANCE = 1e-6  # largest |R^T R - I| entry that still counts as a rotation
@@ -80,7 +79,8 @@ class Contact:
         put('normal', self.rotation[:, 2])
         if not isinstance(self.model, ContactModel):
             raise InvalidContactError(
-                f'{label}model must be one of {[str(m) for m in ContactModel]}, got {self.model!r}')
+                f'{label}model must be one of {[str(m) for m in ContactModel]}, '
+                f'got {self.model!r}')
         for field in ('friction', 'torsional_friction'):
             put(field, checked_number(
                 getattr(self, field), label + field, InvalidContactError, minimum=0.0))

@@ -10,11 +10,10 @@ takes longer than solving their problem. Indexing gives a Contact, slicing a Con
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from grasp_quality.arrays import checked, frozen
-from grasp_quality.contact import IDENTITY, ROTATION_TOLERANCE, Contact, ContactModel
+from grasp_quality.contact import Contact, ContactModel, IDENTITY, ROTATION_TOLERANCE
 from grasp_quality.exceptions import InvalidContactError
+import numpy as np
 
 
 @dataclass(frozen=True, eq=False)

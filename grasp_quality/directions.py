@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sets of directions to draw a map of the wrench space with."""
 
-import numpy as np
-
 from grasp_quality.arrays import frozen
 from grasp_quality.exceptions import InvalidTaskError
+import numpy as np
 
 
 def force_grid(resolution):
     """
-    Forces around the unit ball, as the paper's Fig. 3b.
+    Spread forces around the unit ball, as the paper's Fig. 3b.
 
     Parameters
     ----------

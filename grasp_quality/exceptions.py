@@ -28,7 +28,8 @@ class SolverError(GraspQualityError, RuntimeError):
     """
     The solver gave no answer that its own proof confirms.
 
-    ``problem`` is the ConicProblem that failed, ``status`` the solver's own word for what happened.
+    ``problem`` is the ConicProblem that failed, ``status`` the solver's own word for what
+    happened.
 
     """
 

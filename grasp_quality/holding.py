@@ -11,16 +11,15 @@ carries the smallest violation.
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from grasp_quality import friction_cone
 from grasp_quality.arrays import frozen
 from grasp_quality.grasp import Grasp
-from grasp_quality.problem import VirtualContact, assemble
+from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.proof import USAGE_TOLERANCE
 from grasp_quality.solution import NO_FORCES, NO_USAGE, Status
 from grasp_quality.solve import prove_optimal
 from grasp_quality.wrench import as_wrench
+import numpy as np
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +69,7 @@ def minimum_forces(grasp, external_wrench, time_limit_s=None):
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
     external_wrench : (6,) array_like [N, N m]
         Load on the object, about the object frame's origin.
     time_limit_s : float, optional

@@ -237,11 +237,11 @@ def factor_schur(G, curvature, groups, task, work, group, cross, scalars, S, v):
 
 @numba.njit(**COMPILE)
 def aimed_change(work, i, target):
-    """
+    r"""
     W q of one contact: where u goes when complementarity is to become ``target`` e.
 
     The predictor aims at zero (target < 0 stands for it) and gives -u; the corrector adds
-    W (l \\ (target e - (W^-1 du) o (W dz))), with l = W z and the predictor's du, dz.
+    W (l \ (target e - (W^-1 du) o (W dz))), with l = W z and the predictor's du, dz.
 
     """
     u0, u1, u2, u3 = work[i, U, 0], work[i, U, 1], work[i, U, 2], work[i, U, 3]
@@ -382,6 +382,7 @@ def solve_wrench(G, curvature, groups, task, load, sense, size, weights, work, g
     curvature : (k, 6, 6) array
         t1 t1^T + t2 t2^T + m m^T - n n^T of the rows of each block: -G J G^T.
     groups : (k,) int array
+        Group of each contact, from 0; the caps' shares of a group sum to one at most.
     task, load : (6,) arrays
         Scaled task wrench, of norm one, and external wrench.
     sense : float
@@ -448,13 +449,17 @@ def solve_wrenches(G, curvature, groups, group_count, tasks, load, size, alphas,
     G, curvature, groups, load, size
         As in ``solve_wrench``.
     group_count : int
+        Number of groups.
     tasks : (N, 6) array
         Scaled task wrenches, each of norm one.
     alphas : (N,) array
+        Largest alpha of each task afterwards, in its scaled unit.
     shares : (N, k, 4) array
         Contacts' variables n, t1, t2, m_n afterwards.
     multipliers : (N, 6) array
+        lambda of each task afterwards.
     converged : (N,) bool array
+        Whether each task met the tolerances, afterwards.
 
     """
     k = G.shape[0]

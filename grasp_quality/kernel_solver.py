@@ -9,11 +9,10 @@ other's and hands what it does not solve to Clarabel.
 
 import time
 
-import numpy as np
-
 from grasp_quality import kernel
 from grasp_quality.exceptions import SolverTimeoutError
 from grasp_quality.raw_answer import RawAnswer
+import numpy as np
 
 
 def handles(problem):

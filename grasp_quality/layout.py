@@ -92,9 +92,11 @@ def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role):
     groups : tuple of int
         Group of each contact.
     is_l2 : bool
+        Whether the bound is one cone over all normals instead of group sums.
     virtual_size : int
         Number of variables of the virtual contact.
     virtual_is_cone : bool
+        Whether these are a second-order cone, axis first, instead of half lines.
     role : str
         'task': the virtual contact takes part in equilibrium only. 'pressing': its first variable
         is also a normal force common to all contacts, as a share of their caps. 'widening': it

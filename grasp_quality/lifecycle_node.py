@@ -11,13 +11,8 @@ guard condition, which solves once for all that has come in. Runs in a single-th
 import functools
 
 from geometry_msgs.msg import PoseArray, WrenchStamped
-from rclpy.clock import Clock, ClockType
-from rclpy.event_handler import SubscriptionEventCallbacks
-from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
-from rclpy.parameter import Parameter
-
 from grasp_quality import node_parameters as parameters
-from grasp_quality.node_diagnostics import PERIOD_S, Monitor
+from grasp_quality.node_diagnostics import Monitor, PERIOD_S
 from grasp_quality.node_inputs import Inputs
 from grasp_quality.node_live import LiveLoop
 from grasp_quality.node_outputs import Outputs
@@ -27,6 +22,10 @@ from grasp_quality_msgs.msg import ContactArray
 from msg_adapters import qos
 from msg_adapters.errors import NotActiveError
 from msg_adapters.results import error_result
+from rclpy.clock import Clock, ClockType
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from rclpy.parameter import Parameter
 
 WATCH_SHARE = 0.25  # of max_contact_age between two looks of the watchdog
 FLUSH_S = 0.5       # longest wait for subscribers to have the last word

@@ -9,8 +9,6 @@ Each is a few solves of conic programs put together; the mathematics of one solv
 
 import dataclasses
 
-import numpy as np
-
 from grasp_quality import friction_cone
 from grasp_quality.arrays import checked, checked_number, frozen
 from grasp_quality.barrier import with_margin
@@ -20,7 +18,8 @@ from grasp_quality.polytope import evaluate_ellipsoid, evaluate_polytope
 from grasp_quality.problem import build_problem
 from grasp_quality.solution import WrenchMap
 from grasp_quality.solve import solve
-from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench, check_rows
+from grasp_quality.task import check_rows, TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
+import numpy as np
 
 
 def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s=None):
@@ -30,6 +29,7 @@ def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
     task : TaskWrench, TaskCone, TaskPolytope or TaskEllipsoid
         About the object frame's origin [N, N m]; taken as given, never normalised.
     external_wrench : (6,) array_like [N, N m], optional
@@ -85,9 +85,11 @@ def wrench_map(grasp, directions, external_wrench=None, forces=False, time_limit
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
     directions : (N, 6) array_like [N, N m]
         Task wrenches about the object frame's origin, taken as given; none may be zero.
     external_wrench : (6,) array_like [N, N m], optional
+        What the world applies on the object, about the object frame's origin; zero if None.
     forces : bool
         Whether to return the contact forces too.
     time_limit_s : float, optional
@@ -116,6 +118,7 @@ def slip_margin(grasp, forces):
     Parameters
     ----------
     grasp : Grasp
+        Contacts that the forces were measured at, in the same order.
     forces : (k, 4) array_like [N, N, N, N m]
         Measured [t1, t2, n, m_n] of every contact, in its contact frame, finger on object.
 

@@ -3,16 +3,14 @@
 """
 What the node has received: the newest message of every topic, and how old it is.
 
-Callbacks only store. ``scene`` turns the newest contacts into core objects when they are asked for;
-a message that cannot be used is an error there, and the next good one is all it takes to recover.
+Callbacks only store. ``scene`` turns the newest contacts into core objects when they are asked
+for; a message that cannot be used is an error there, and the next good one is all it takes to
+recover.
 """
 
 from dataclasses import dataclass
 
-import numpy as np
 from builtin_interfaces.msg import Time
-
-from grasp_quality.contact import Contact
 from grasp_quality.grasp import Grasp
 from grasp_quality.measures import slip_margin
 from grasp_quality_msgs.srv import SetTask
@@ -22,6 +20,7 @@ from msg_adapters.frames import object_frame_of, transform_to
 from msg_adapters.measured import local_force
 from msg_adapters.stamps import stamp_ns
 from msg_adapters.wrenches import to_wrench
+import numpy as np
 
 LOADED_MEASUREMENTS = 'no contact is loaded: no measured normal force reaches min_contact_force'
 

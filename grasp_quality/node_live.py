@@ -10,11 +10,8 @@ at once. Errors of any kind end in a published code, never in an exception.
 
 import time
 
-from std_msgs.msg import Header
-
 from grasp_quality.measures import evaluate
 from grasp_quality.node_inputs import measured_margin
-from grasp_quality.solution import PolytopeSolution
 from grasp_quality.task import TaskCone, TaskPolytope
 from grasp_quality_msgs.msg import GraspQuality
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
@@ -22,6 +19,7 @@ from msg_adapters.results import error_result, status_result
 from msg_adapters.stamps import to_duration
 from msg_adapters.tasks import live_task, load_from
 from msg_adapters.wrenches import to_wrench
+from std_msgs.msg import Header
 
 
 class LiveLoop:
@@ -45,7 +43,7 @@ class LiveLoop:
             self._fail(exc, scene)
 
     def watch(self):
-        """Publish a failure when there are no fresh contacts; otherwise leave it to the samples."""
+        """Publish a failure when there are no fresh contacts; else leave it to the samples."""
         try:
             self._inputs.age_s()
         except (NoContactsError, StaleContactsError) as exc:

@@ -11,13 +11,12 @@ import re
 import time
 
 from geometry_msgs.msg import WrenchStamped
-from rclpy.duration import Duration
-from rclpy.event_handler import PublisherEventCallbacks
-from std_msgs.msg import Float64, Header
-
 from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode
 from msg_adapters import qos
 from msg_adapters.forces import contact_frame_wrench, force_array
+from rclpy.duration import Duration
+from rclpy.event_handler import PublisherEventCallbacks
+from std_msgs.msg import Float64, Header
 
 MAX_WRENCH_TOPICS = 256
 
@@ -41,8 +40,11 @@ class Outputs:
         quality : GraspQuality
             Forces are published only with result OPTIMAL.
         grasp : Grasp
+            What the forces belong to; not needed with another result.
         forces : (k, 4) array [N, N, N, N m]
+            [t1, t2, n, m_n] in the contact frames, finger on object.
         cone_usage : (k,) array
+            Share of each friction cone in use.
 
         """
         optimal = quality.result.code == ResultCode.OPTIMAL

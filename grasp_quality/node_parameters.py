@@ -3,22 +3,21 @@
 """
 Parameters of the node: one table of descriptors, one frozen dataclass of checked values.
 
-A new parameter is a row of ``TABLE`` and a field of ``Settings``; a rule between parameters goes to
-``Settings.__post_init__``. Values are checked in the on-set callback and swapped in the post-set
-callback, so that a rejected set changes nothing.
+A new parameter is a row of ``TABLE`` and a field of ``Settings``; a rule between parameters goes
+to ``Settings.__post_init__``. Values are checked in the on-set callback and swapped in the
+post-set callback, so that a rejected set changes nothing.
 """
 
 from dataclasses import dataclass, fields
-
-from rcl_interfaces.msg import (
-    FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult)
-from rclpy.exceptions import ParameterUninitializedException
-from rclpy.parameter import Parameter
 
 from grasp_quality.bounds import BOUNDS
 from grasp_quality.contact import ContactModel
 from grasp_quality.task import TaskWrench
 from msg_adapters.contacts import ContactDefaults
+from rcl_interfaces.msg import (
+    FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult)
+from rclpy.exceptions import ParameterUninitializedException
+from rclpy.parameter import Parameter
 
 SOURCES = ('pose_array', 'contact_array')
 LARGE = 1e6
@@ -74,7 +73,7 @@ class Settings:
 
     @property
     def contact_defaults(self):
-        """What contact messages leave open."""
+        """Return what contact messages leave open."""
         return ContactDefaults(
             ContactModel[self.contact_model], self.friction_coefficient,
             self.torsional_friction_coefficient, self.max_normal_force,
@@ -103,7 +102,8 @@ TABLE = {
                                        (0.0, 100.0), False),
     'max_normal_force': (Type.DOUBLE, 'Largest normal force of a contact [N], > 0', (0.0, LARGE),
                          False),
-    'force_bound': (Type.STRING, 'Bound on the normal forces: linf, l1, l2 or finger', None, False),
+    'force_bound': (Type.STRING, 'Bound on the normal forces: linf, l1, l2 or finger', None,
+                    False),
     'barrier_weight': (Type.DOUBLE, 'Weight eps of the friction margin, eq. (11), in the unit of '
                        'alpha', (0.0, LARGE), False),
     'task_wrench': (Type.DOUBLE_ARRAY, 'Task of the live loop: fx fy fz [N] tx ty tz [N m] in the '
@@ -164,7 +164,7 @@ def changed(settings, parameters):
 
 
 def check(settings, parameters):
-    """Answer an on-set callback: would these parameters be valid together?"""
+    """Answer an on-set callback: whether these parameters would be valid together."""
     try:
         changed(settings, parameters)
     except (ValueError, TypeError) as exc:

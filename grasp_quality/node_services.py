@@ -3,14 +3,12 @@
 """
 The services of the node: each reads a request, asks the core once, and fills the response.
 
-``Services`` gives every handler the same boundary: whatever goes wrong becomes a fresh response with
-a result code, so that a client always gets an answer and never half of one.
+``Services`` gives every handler the same boundary: whatever goes wrong becomes a fresh response
+with a result code, so that a client always gets an answer and never half of one.
 """
 
 import math
 import time
-
-from std_msgs.msg import Header
 
 from grasp_quality.directions import force_grid
 from grasp_quality.holding import minimum_forces
@@ -24,6 +22,7 @@ from msg_adapters.stamps import to_duration
 from msg_adapters.tasks import (
     cone_task, live_task, load_from, polytope_task, wrench_rows, wrench_task)
 from msg_adapters.wrenches import to_wrench
+from std_msgs.msg import Header
 
 SURFACE_SAMPLES = 32
 

@@ -10,12 +10,11 @@ corners (docs/derivations.md).
 
 import itertools
 
-import numpy as np
-
 from grasp_quality.arrays import frozen
 from grasp_quality.batch import solve_wrenches
 from grasp_quality.solution import PolytopeSolution, Status
 from grasp_quality.task import TaskWrench
+import numpy as np
 
 MAX_PARALLELOTOPE = 8  # wrenches; the corners are 2^8
 

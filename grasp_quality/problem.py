@@ -18,13 +18,12 @@ it; building is then one gather of numbers. Nothing here knows of a solver.
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp
 from grasp_quality.layout import Layout, layout_of
 from grasp_quality.task import TaskCone, TaskWrench
 from grasp_quality.wrench import as_wrench
+import numpy as np
 
 NO_WRENCH = as_wrench(np.zeros(6))
 
@@ -134,7 +133,9 @@ def build_problem(grasp, task, external_wrench=None):
     Parameters
     ----------
     grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
     task : TaskWrench or TaskCone
+        About the object frame's origin [N, N m].
     external_wrench : (6,) array_like [N, N m], optional
         What the world applies on the object besides the fingers, about the object frame's origin.
 

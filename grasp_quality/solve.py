@@ -10,16 +10,15 @@ Solution of a task.
 
 import dataclasses
 
-import numpy as np
-
 from grasp_quality import clarabel_solver, friction_cone, kernel_solver
 from grasp_quality.arrays import frozen
 from grasp_quality.bounds import gauge
 from grasp_quality.exceptions import SolverError
 from grasp_quality.proof import (
-    GAP_TOLERANCE, INFEASIBILITY_TOLERANCE, held, infeasibility_margin, prove)
+    GAP_TOLERANCE, held, infeasibility_margin, INFEASIBILITY_TOLERANCE, prove)
 from grasp_quality.solution import (
-    NO_FORCES, NO_USAGE, ConeSolution, Solution, Status, dimensional_multiplier)
+    ConeSolution, dimensional_multiplier, NO_FORCES, NO_USAGE, Solution, Status)
+import numpy as np
 
 NO_WRENCH = frozen(np.zeros(6))
 
@@ -45,6 +44,7 @@ def prove_optimal(problem, time_limit_s=None):
     Parameters
     ----------
     problem : ConicProblem
+        Program in scaled standard form.
     time_limit_s : float, optional
         Of each attempt [s].
 

@@ -10,11 +10,10 @@ with a minus sign in the grasp matrix (section IV); ``problem`` builds it.
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from grasp_quality.arrays import checked, checked_number, frozen
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.wrench import as_wrench
+import numpy as np
 
 PARALLEL = 1e-9  # share of the axis below which what the laterals cannot cancel counts as nothing
 

@@ -9,8 +9,6 @@ poses from the defaults. +z of each pose is the inward normal.
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from grasp_quality.contact import ContactModel
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidContactError
@@ -18,6 +16,7 @@ from grasp_quality_msgs.msg import Contact as ContactMsg
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.poses import pose_arrays
+import numpy as np
 
 MODELS = {ContactMsg.MODEL_FPC: ContactModel.FPC, ContactMsg.MODEL_PCWF: ContactModel.PCWF,
           ContactMsg.MODEL_SFCE: ContactModel.SFCE}
@@ -55,7 +54,9 @@ def contacts_from_poses(message, defaults, transform=None):
     Parameters
     ----------
     message : geometry_msgs.msg.PoseArray
+        Contact frames, +z along the inward normal, in header.frame_id.
     defaults : ContactDefaults
+        Model, friction, caps and names, which poses do not carry.
     transform : Transform, optional
         Into the object frame.
 

@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Contact forces: core solutions to messages, finger on object."""
 
-import numpy as np
 from geometry_msgs.msg import WrenchStamped
-from std_msgs.msg import Header
-
 from grasp_quality_msgs.msg import ContactForce, ContactForceArray
 from msg_adapters.wrenches import fill_xyz, to_wrench
+import numpy as np
+from std_msgs.msg import Header
 
 
 def force_array(header, grasp=None, forces=(), cone_usage=()):
@@ -23,6 +22,7 @@ def force_array(header, grasp=None, forces=(), cone_usage=()):
     forces : (k, 4) or (0, 4) array [N, N, N, N m]
         In the contact frames.
     cone_usage : (k,) array
+        Share of each friction cone in use.
 
     """
     message = ContactForceArray(header=header)

@@ -10,13 +10,12 @@ frame; contacts must name their frame, unless the object_frame parameter does.
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from rclpy.time import Time
-
 from grasp_quality.wrench import transform
 from msg_adapters.errors import InvalidMessageError, TransformError
 from msg_adapters.number_checks import checked_numbers
 from msg_adapters.poses import rotation_matrix
+import numpy as np
+from rclpy.time import Time
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +26,7 @@ class Transform:
     p: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def wrench(self, wrench):
-        """Express a wrench (6,) of the source frame in the target frame."""
+        """Express a wrench of the source frame, (6,) [N, N m], in the target frame."""
         return transform(wrench, self.R, self.p)
 
 

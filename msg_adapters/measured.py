@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measured contact wrenches: WrenchStamped to the local force of one contact."""
 
-import numpy as np
-
 from grasp_quality.wrench import cross
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.wrenches import wrench_array
+import numpy as np
 
 
 def local_force(message, contact, object_frame):
@@ -19,7 +18,9 @@ def local_force(message, contact, object_frame):
         In the contact frame (frame_id = the contact's name), about the contact point; or in the
         object frame, about its origin.
     contact : Contact
+        Contact in the object frame whose name the topic carries.
     object_frame : str
+        Name of the object frame.
 
     Returns
     -------

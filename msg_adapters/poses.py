@@ -4,10 +4,9 @@
 
 import math
 
-import numpy as np
-
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.number_checks import checked_numbers
+import numpy as np
 
 QUATERNION_TOLERANCE = 1e-3  # of the norm, before it is made exact
 
@@ -19,6 +18,7 @@ def pose_arrays(pose, name):
     Parameters
     ----------
     pose : geometry_msgs.msg.Pose
+        Position [m] and orientation of norm one.
     name : str
         Field name, for the error.
 

@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tasks and loads: service requests and parameters to core tasks, in the object frame."""
 
-import numpy as np
-
 from grasp_quality.task import TaskCone, TaskPolytope, TaskWrench
 from grasp_quality_msgs.srv import SetTask
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.wrenches import wrench_array
+import numpy as np
 
 
 def load_from(message, transform, name='external_wrench'):

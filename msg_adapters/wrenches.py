@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wrenches, points and vectors: message parts to and from arrays, force before torque, SI."""
 
-import numpy as np
 from geometry_msgs.msg import Wrench
-
 from msg_adapters.number_checks import checked_numbers
+import numpy as np
 
 
 def wrench_array(message, name):
@@ -15,6 +14,7 @@ def wrench_array(message, name):
     Parameters
     ----------
     message : geometry_msgs.msg.Wrench
+        Force [N] and torque [N m].
     name : str
         Field name, for the error.
 
