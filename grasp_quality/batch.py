@@ -18,9 +18,11 @@ from grasp_quality.friction_cone import usage_of_shares
 from grasp_quality.problem import build_problem, NO_WRENCH
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskWrench
+from grasp_quality.time_limit import TimeLimit
 from grasp_quality.wrench import as_wrench
 import numpy as np
 
+BETWEEN_LOOKS = 256  # wrenches that a core solves between two looks at the time limit
 SMALL = 128  # wrenches that are not worth a thread
 
 
@@ -60,7 +62,7 @@ def solve_wrenches(grasp, wrenches, external_wrench=None, time_limit_s=None):
     external_wrench : (6,) array_like [N, N m], optional
         What the world applies on the object, about the object frame's origin; zero if None.
     time_limit_s : float, optional
-        Of each wrench that is solved by itself [s].
+        Of all of them together [s].
 
     Returns
     -------
@@ -71,21 +73,22 @@ def solve_wrenches(grasp, wrenches, external_wrench=None, time_limit_s=None):
     InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    limit = TimeLimit.of(time_limit_s)
     load = NO_WRENCH if external_wrench is None else as_wrench(external_wrench, 'external wrench')
     count, k = len(wrenches), len(grasp)
     if grasp.bound == 'l2' or not count:
         alpha, forces, proved = np.zeros(count), np.zeros((count, k, 4)), np.zeros(count, bool)
     else:
-        alpha, forces, proved = _by_kernel(grasp, wrenches, load)
+        alpha, forces, proved = _by_kernel(grasp, wrenches, load, limit)
     feasible = proved.copy()
     for i in np.flatnonzero(~proved):
-        solution = solve(build_problem(grasp, TaskWrench(wrenches[i]), load), time_limit_s)
+        solution = solve(build_problem(grasp, TaskWrench(wrenches[i]), load), limit)
         alpha[i], feasible[i] = solution.alpha, solution.feasible
         forces[i] = solution.forces if solution.feasible else 0.0
     return Batch(alpha, feasible, forces, int(count - proved.sum()))
 
 
-def _by_kernel(grasp, wrenches, load):
+def _by_kernel(grasp, wrenches, load, limit):
     """Alpha (N,), forces (N, k, 4) and which of them are proved (N,)."""
     scaled = grasp.scaled_wrench(wrenches)
     size = np.sqrt((scaled * scaled).sum(axis=1))
@@ -100,9 +103,13 @@ def _by_kernel(grasp, wrenches, load):
     parts = [slice(begin, end) for begin, end in zip(ends[:-1], ends[1:])]
 
     def solve_part(part):
-        kernel.solve_wrenches(
-            G, curvature, groups, max(grasp.groups) + 1, tasks[part], load, reach, alpha[part],
-            shares[part], multipliers[part], converged[part])
+        for begin in range(part.start, part.stop, BETWEEN_LOOKS):
+            rows = slice(begin, min(begin + BETWEEN_LOOKS, part.stop))
+            kernel.solve_wrenches(
+                G, curvature, groups, max(grasp.groups) + 1, tasks[rows], load, reach,
+                alpha[rows], shares[rows], multipliers[rows], converged[rows])
+            if limit is not None:
+                limit.remaining_s()
 
     if cores == 1:
         solve_part(parts[0])

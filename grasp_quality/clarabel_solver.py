@@ -28,7 +28,7 @@ ATTEMPTS = (
 CONES = {'nonnegative': clarabel.NonnegativeConeT, 'second_order': clarabel.SecondOrderConeT}
 
 
-def run(problem, attempt=0, time_limit_s=None):
+def run(problem, attempt=0, limit=None):
     """
     Solve a ConicProblem once.
 
@@ -38,8 +38,8 @@ def run(problem, attempt=0, time_limit_s=None):
         Program in scaled standard form.
     attempt : int
         Which of ``ATTEMPTS`` to make.
-    time_limit_s : float, optional
-        [s]
+    limit : TimeLimit, optional
+        Of the question that this is an attempt at.
 
     Returns
     -------
@@ -56,7 +56,7 @@ def run(problem, attempt=0, time_limit_s=None):
         shape=(variables, rows))
     u, multipliers, status = run_matrices(
         _zeros(rows), problem.e, matrix, -problem.c, _cones(problem.cones),
-        _settings(attempt, time_limit_s), problem)
+        _settings(attempt, limit and limit.remaining_s(problem)), problem)
     return RawAnswer(problem.layout.shares(u), u[problem.layout.virtual], multipliers, status)
 
 
@@ -85,7 +85,6 @@ def _cones(cones):
     return [CONES[kind](size) for kind, size in cones]
 
 
-@lru_cache(maxsize=64)
 def _settings(attempt, time_limit_s):
     settings = clarabel.DefaultSettings()
     settings.verbose = False

@@ -18,6 +18,7 @@ from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.proof import USAGE_TOLERANCE
 from grasp_quality.solution import NO_FORCES, NO_USAGE, Status
 from grasp_quality.solve import prove_optimal
+from grasp_quality.time_limit import TimeLimit
 from grasp_quality.wrench import as_wrench
 import numpy as np
 
@@ -84,6 +85,7 @@ def minimum_forces(grasp, external_wrench, time_limit_s=None):
     InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    time_limit_s = TimeLimit.of(time_limit_s)
     load = as_wrench(external_wrench, 'external wrench')
     if not load.any():
         return MinimumForces(grasp, Status.OPTIMAL, np.zeros((len(grasp), 4)), 0.0, 0.0, 0.0,

@@ -7,10 +7,7 @@ It answers about ten times faster than a general solver; ``solve`` proves its an
 other's and hands what it does not solve to Clarabel.
 """
 
-import time
-
 from grasp_quality import kernel
-from grasp_quality.exceptions import SolverTimeoutError
 from grasp_quality.raw_answer import RawAnswer
 import numpy as np
 
@@ -21,7 +18,7 @@ def handles(problem):
         and problem.virtual.columns.shape[1] == 1 and problem.grasp.bound != 'l2'
 
 
-def run(problem, time_limit_s=None, weights=None):
+def run(problem, limit=None, weights=None):
     """
     Solve a ConicProblem once.
 
@@ -29,8 +26,8 @@ def run(problem, time_limit_s=None, weights=None):
     ----------
     problem : ConicProblem
         Of a kind that ``handles`` knows.
-    time_limit_s : float, optional
-        [s]
+    limit : TimeLimit, optional
+        Of the question that this is an attempt at; looked at afterwards.
     weights : (k,) array, optional
         Barrier weight of each contact's log det, for the weighted centre instead of the optimum.
 
@@ -43,7 +40,6 @@ def run(problem, time_limit_s=None, weights=None):
     SolverTimeoutError
 
     """
-    started = time.perf_counter()
     grasp, k = problem.grasp, len(problem.grasp)
     G, curvature, groups = grasp.blocks
     work, group = np.empty((k, 8, 4)), np.empty((max(grasp.groups) + 1, 8))
@@ -53,9 +49,8 @@ def run(problem, time_limit_s=None, weights=None):
         G, curvature, groups, problem.virtual.columns[:, 0].copy(),
         problem.scaled_external_wrench.copy(), float(problem.virtual.objective[0]), problem.reach,
         np.zeros(k) if weights is None else weights, work, group, multipliers)
-    if time_limit_s is not None and time.perf_counter() - started > time_limit_s:
-        raise SolverTimeoutError(
-            'the solver reached its time limit; raise it or ask for less', problem, 'MaxTime')
+    if limit is not None:
+        limit.remaining_s(problem)
     shares = work[:, kernel.U][:, (1, 2, 0, 3)]
     return RawAnswer(shares, np.array([alpha]), np.concatenate([multipliers, group[:, kernel.NU]]),
                      'Solved' if converged else 'Stalled')

@@ -4,8 +4,8 @@
 The managed node: parameters, subscriptions, services and publishers, wired to the live loop.
 
 Everything is created at once and answers in every lifecycle state, so that a client never waits
-for a service that is not there; only an active node computes. Subscriptions store and trigger one
-guard condition, which solves once for all that has come in. Runs in a single-threaded executor.
+for a service that is not there; only an active node computes. Subscriptions store the newest message;
+those of contacts, task and load then evaluate once. Runs in a single-threaded executor.
 """
 
 import functools
@@ -25,7 +25,6 @@ from msg_adapters.results import error_result
 from rclpy.clock import Clock, ClockType
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
-from rclpy.parameter import Parameter
 
 WATCH_SHARE = 0.25  # of max_contact_age between two looks of the watchdog
 FLUSH_S = 0.5       # longest wait for subscribers to have the last word
@@ -50,9 +49,12 @@ class GraspQualityNode(LifecycleNode):
         self._monitor = Monitor(self)
         self._inputs = Inputs(current, lambda: self.get_clock().now().nanoseconds)
         self._inputs.set_task_wrench(self.settings.task_wrench)
+        self._listen_to_transforms()
         self._outputs = Outputs(self)
         self._outputs.declare_wrenches(self.settings.contact_names)
-        self._live = LiveLoop(self._inputs, self._outputs, current, self._monitor)
+        self._live = LiveLoop(
+            self._inputs, self._outputs, current, self._monitor,
+            lambda: self.get_clock().now().to_msg())
         self._handlers = Services(self, self._inputs, current, lambda: self.active)
         self._subscribe()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -65,6 +67,14 @@ class GraspQualityNode(LifecycleNode):
             lambda changes: parameters.check(self.settings, changes))
         self.add_post_set_parameters_callback(self._guarded(self._on_parameters))
         self._guard_lifecycle_services()
+
+    def _listen_to_transforms(self):
+        try:
+            import tf2_ros
+        except ImportError:  # not on PyPI; messages must then come in the object frame
+            return
+        self._inputs.tf_buffer = tf2_ros.Buffer()
+        self._tf_listener = tf2_ros.TransformListener(self._inputs.tf_buffer, self)
 
     def _subscribe(self):
         def subscribe(message_type, topic, receive, profile):
@@ -131,7 +141,7 @@ class GraspQualityNode(LifecycleNode):
         if 'max_contact_age' in names:
             self._watchdog.timer_period_ns = int(
                 1e9 * WATCH_SHARE * self.settings.max_contact_age)
-        if any(isinstance(change, Parameter) for change in changes):
+        if any(name in parameters.TABLE for name in names):
             self._evaluate()
 
     def on_configure(self, state):
@@ -157,8 +167,14 @@ class GraspQualityNode(LifecycleNode):
 
     def silence(self, reason):
         """Publish NOT_ACTIVE with empty forces, see it delivered, and stop computing."""
-        if self.active:
-            self._outputs.publish_failure(error_result(NotActiveError(reason)))
-            self._outputs.flush(FLUSH_S)
-        self.active = False
+        was_active, self.active = self.active, False
         self._inputs.clear()
+        if was_active:
+            self._outputs.publish_failure(
+                error_result(NotActiveError(reason)), self.get_clock().now().to_msg())
+            self._outputs.flush(FLUSH_S)
+
+    def on_error(self, state):
+        """Compute nothing after a transition that went wrong."""
+        self.active = False
+        return super().on_error(state)

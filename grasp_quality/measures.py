@@ -19,6 +19,7 @@ from grasp_quality.problem import build_problem
 from grasp_quality.solution import WrenchMap
 from grasp_quality.solve import solve
 from grasp_quality.task import check_rows, TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
+from grasp_quality.time_limit import TimeLimit
 import numpy as np
 
 
@@ -37,7 +38,7 @@ def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s
     barrier_weight : float
         eps >= 0 of eq. (11), in the unit of alpha: buys friction margin with alpha.
     time_limit_s : float, optional
-        For each solve [s].
+        For the whole question [s].
 
     Returns
     -------
@@ -48,6 +49,7 @@ def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s
     InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    time_limit_s = TimeLimit.of(time_limit_s)
     eps = checked_number(barrier_weight, 'barrier_weight', InvalidTaskError, minimum=0.0)
 
     def one(single):
@@ -93,7 +95,7 @@ def wrench_map(grasp, directions, external_wrench=None, forces=False, time_limit
     forces : bool
         Whether to return the contact forces too.
     time_limit_s : float, optional
-        For each solve [s].
+        For the whole map [s].
 
     Returns
     -------

@@ -3,14 +3,17 @@
 """
 What the node has received: the newest message of every topic, and how old it is.
 
-Callbacks only store. ``scene`` turns the newest contacts into core objects when they are asked
+Nothing is judged on arrival. ``scene`` turns the newest contacts into core objects when they are asked
 for; a message that cannot be used is an error there, and the next good one is all it takes to
-recover.
+recover. Arrival is told by the steady clock, stamps by the ROS clock: contacts are as old as the
+older of the two says. Task and load hold until they are replaced.
 """
 
 from dataclasses import dataclass
+import time
 
 from builtin_interfaces.msg import Time
+from geometry_msgs.msg import WrenchStamped
 from grasp_quality.grasp import Grasp
 from grasp_quality.measures import slip_margin
 from grasp_quality_msgs.srv import SetTask
@@ -70,14 +73,19 @@ class Inputs:
 
     def store_contacts(self, message):
         """Keep a PoseArray or ContactArray."""
-        self._contacts = (message, self._now_ns())
+        self._contacts = (message, time.monotonic_ns())
 
     def store_wrench(self, name, message):
         """Keep the measured WrenchStamped of a contact."""
-        self._wrenches[name] = (message, self._now_ns())
+        self._wrenches[name] = (message, time.monotonic_ns())
+
+    def set_task(self, request):
+        """Keep a SetTask request: its task, and its external wrench as the load."""
+        self.task = request
+        self.load = WrenchStamped(header=request.header, wrench=request.external_wrench)
 
     def store_task_wrench(self, message):
-        """Keep a WrenchStamped as the task of the live loop."""
+        """Keep a WrenchStamped as the task of the live loop; the load stays."""
         self.task = SetTask.Request(
             header=message.header, kind=SetTask.Request.WRENCH, task_wrench=message.wrench)
 
@@ -144,7 +152,7 @@ class Inputs:
         """Turn a PoseArray or ContactArray into (Grasp, object frame)."""
         settings = self._settings()
         frame = object_frame_of(message.header.frame_id, settings.object_frame)
-        transform = self.transform(message.header, frame)
+        transform = self.transform(message.header, frame, message.header.stamp)
         items, read = (message.poses, contacts_from_poses) if hasattr(message, 'poses') else (
             message.contacts, contacts_from_array)
         if len(items) > settings.max_request_size:
@@ -156,9 +164,9 @@ class Inputs:
             raise NoContactsError('the newest contact message holds no contacts')
         return Grasp(contacts, settings.force_bound), frame
 
-    def transform(self, header, frame):
-        """Transform from a header's frame to the object frame; None for the identity."""
-        return transform_to(frame, header.frame_id, self.tf_buffer, header.stamp)
+    def transform(self, header, frame, stamp):
+        """Transform from a header's frame to the object frame at a time; None for the identity."""
+        return transform_to(frame, header.frame_id, self.tf_buffer, stamp)
 
     def _measured(self, contacts, frame):
         """Fresh measured force (4,) of each contact, or None."""
@@ -179,9 +187,9 @@ class Inputs:
         return forces
 
     def _ages(self, message, arrival):
-        now = self._now_ns()
-        stamp = stamp_ns(message.header.stamp) or arrival
-        return (now - stamp) * 1e-9, (now - arrival) * 1e-9
+        since_arrival = (time.monotonic_ns() - arrival) * 1e-9
+        stamp = stamp_ns(message.header.stamp)
+        return since_arrival, (self._now_ns() - stamp) * 1e-9 if stamp else since_arrival
 
 
 def measured_margin(scene):

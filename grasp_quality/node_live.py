@@ -25,11 +25,12 @@ from std_msgs.msg import Header
 class LiveLoop:
     """Evaluates ``inputs`` and publishes on ``outputs``; tells ``monitor`` how it went."""
 
-    def __init__(self, inputs, outputs, settings, monitor):
+    def __init__(self, inputs, outputs, settings, monitor, now):
         self._inputs = inputs
         self._outputs = outputs
         self._settings = settings
         self._monitor = monitor
+        self._now = now
 
     def evaluate(self):
         """Solve the newest contacts for the live task and publish the answer."""
@@ -50,23 +51,24 @@ class LiveLoop:
             self._fail(exc, None)
 
     def _fail(self, exc, scene):
-        where = {} if scene is None else {'stamp': scene.stamp, 'frame': scene.frame}
+        stamp, frame = (self._now(), '') if scene is None else (scene.stamp, scene.frame)
         result = error_result(exc)
         self._monitor.count_failure(result, exc)
-        self._outputs.publish_failure(result, **where)
+        self._outputs.publish_failure(result, stamp, frame)
 
     def _answer(self, scene):
         settings = self._settings()
         started = time.perf_counter()
-        task, load = self._task_and_load(scene.frame)
-        solution = evaluate(
-            scene.grasp, task, load, settings.barrier_weight, settings.solver_time_limit)
+        task, load = self._task_and_load(scene)
+        # the watchdog cannot bark during a solve, which must therefore end before contacts are stale
+        limit = min(settings.solver_time_limit, settings.max_contact_age)
+        solution = evaluate(scene.grasp, task, load, settings.barrier_weight, limit)
         solve_time = time.perf_counter() - started
         solution, wrench = _governing(task, solution)
         margin = measured_margin(scene)
         quality = GraspQuality(
             header=Header(stamp=scene.stamp, frame_id=scene.frame),
-            result=status_result(solution.status), task_wrench=to_wrench(wrench),
+            result=status_result(solution.status, pinned=solution.pinned), task_wrench=to_wrench(wrench),
             alpha=solution.alpha, alpha_upper=solution.alpha_upper,
             alpha_lower=solution.alpha_lower, holdable=solution.holdable,
             friction_margin=solution.friction_margin, limiting_contact=solution.limiting_contact,
@@ -74,18 +76,19 @@ class LiveLoop:
             slip_measured=margin is not None, measured_slip_margin=margin or 0.0)
         return quality, (scene.grasp, solution.forces, solution.cone_usage)
 
-    def _task_and_load(self, frame):
+    def _task_and_load(self, scene):
         inputs, limit = self._inputs, self._settings().max_request_size
         if inputs.task is None:
             raise InvalidMessageError(
                 'no task set: call ~/set_task, publish ~/task_wrench or set the parameter '
                 'task_wrench')
-        transform = inputs.transform(inputs.task.header, frame)
+        # where the object is when its contacts are sensed, not when the task was sent
+        transform = inputs.transform(inputs.task.header, scene.frame, scene.stamp)
         task = live_task(inputs.task, transform, limit)
-        if inputs.load is not None:
-            return task, load_from(
-                inputs.load.wrench, inputs.transform(inputs.load.header, frame))
-        return task, load_from(inputs.task.external_wrench, transform)
+        if inputs.load is None:
+            return task, None
+        return task, load_from(
+            inputs.load.wrench, inputs.transform(inputs.load.header, scene.frame, scene.stamp))
 
 
 def _governing(task, solution):

@@ -7,7 +7,6 @@ On anything but OPTIMAL alpha is 0 and the force array empty, and the wrench top
 a zero wrench: nothing that was published before stays in force by silence.
 """
 
-import re
 import time
 
 from geometry_msgs.msg import WrenchStamped
@@ -60,12 +59,9 @@ class Outputs:
         self._publish_wrenches(
             quality.header.stamp, dict(zip(grasp.names, forces)) if optimal else {})
 
-    def publish_failure(self, result, stamp=None, frame='', **fields):
-        """Publish a ResultCode other than OPTIMAL; fields are further ones of GraspQuality."""
-        header = Header(frame_id=frame)
-        if stamp is not None:
-            header.stamp = stamp
-        self.publish(GraspQuality(header=header, result=result, **fields))
+    def publish_failure(self, result, stamp, frame=''):
+        """Publish a ResultCode other than OPTIMAL, stamped with its contacts' time or now."""
+        self.publish(GraspQuality(header=Header(stamp=stamp, frame_id=frame), result=result))
 
     def flush(self, timeout_s):
         """Wait until all subscribers have what was published: destroying a publisher drops it."""
@@ -77,7 +73,7 @@ class Outputs:
 
     def _publish_wrenches(self, stamp, forces):
         for name in forces:
-            if name not in self._wrenches:
+            if name not in self._wrenches and len(self._wrenches) < MAX_WRENCH_TOPICS:
                 self._wrenches[name] = self._wrench_publisher(name)
         for name, publisher in self._wrenches.items():
             if publisher is not None and publisher.get_subscription_count():
@@ -86,11 +82,13 @@ class Outputs:
                 publisher.publish(message)
 
     def _wrench_publisher(self, name):
-        if not re.fullmatch('[A-Za-z_][A-Za-z0-9_]*', name) or '__' in name \
-                or len(self._wrenches) >= MAX_WRENCH_TOPICS:
+        if len(self._wrenches) + 1 == MAX_WRENCH_TOPICS:
             self._node.get_logger().warning(
-                f'no topic ~/optimal_wrenches/{name}: contact names must be letters, digits and '
-                f'single underscores, and at most {MAX_WRENCH_TOPICS}; its forces are on '
+                f'{MAX_WRENCH_TOPICS} contact names seen: further ones get no topic '
+                '~/optimal_wrenches/<name>, their forces are on ~/contact_forces')
+        if not qos.names_a_topic(name):
+            self._node.get_logger().warning(
+                f'no topic ~/optimal_wrenches/{name}: {qos.TOPIC_RULE}; its forces are on '
                 '~/contact_forces')
             return None
         publisher = self._publisher(WrenchStamped, f'~/optimal_wrenches/{name}')

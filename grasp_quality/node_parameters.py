@@ -13,6 +13,7 @@ from dataclasses import dataclass, fields
 from grasp_quality.bounds import BOUNDS
 from grasp_quality.contact import ContactModel
 from grasp_quality.task import TaskWrench
+from msg_adapters import qos
 from msg_adapters.contacts import ContactDefaults
 from rcl_interfaces.msg import (
     FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult)
@@ -64,6 +65,13 @@ class Settings:
         if '' in self.contact_names or len(set(self.contact_names)) != len(self.contact_names):
             raise ValueError(
                 f'contact_names must be unique and not empty, got {list(self.contact_names)}')
+        for name in self.contact_names:
+            if not qos.names_a_topic(name):
+                raise ValueError(f'contact_names must make topics: {qos.TOPIC_RULE}, got {name!r}')
+        if self.min_contact_force > 0.0 and not self.contact_names:
+            raise ValueError(
+                'min_contact_force above 0 needs contact_names: they name the topics '
+                '~/contact_wrenches/<name> that measured forces come on')
         if self.contact_fingers and len(self.contact_fingers) != len(self.contact_names):
             raise ValueError(
                 f'contact_fingers must name one finger for each of the {len(self.contact_names)} '
@@ -110,9 +118,9 @@ TABLE = {
                     'object frame; not set: none until one is given', None, False),
     'min_contact_force': (Type.DOUBLE, 'Measured normal force [N] from which a contact counts as '
                           'loaded; 0: all count, measured or not', (0.0, LARGE), False),
-    'max_contact_age': (Type.DOUBLE, 'Age [s] beyond which contacts are stale, > 0', (0.0, 3600.0),
+    'max_contact_age': (Type.DOUBLE, 'Age [s] beyond which contacts are stale', (1e-3, 3600.0),
                         False),
-    'solver_time_limit': (Type.DOUBLE, 'Time limit of one solve [s], > 0', (0.0, 3600.0), False),
+    'solver_time_limit': (Type.DOUBLE, 'Time limit of one request or evaluation [s], > 0', (0.0, 3600.0), False),
     'max_request_size': (Type.INTEGER, 'Largest number of contacts, wrenches or directions of one '
                          'message or request', (1, 1_000_000), False),
     'map_directions': (Type.INTEGER, 'Directions of a wrench map that names none', (2, 1_000_000),

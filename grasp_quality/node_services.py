@@ -68,7 +68,7 @@ class Services:
         else:
             scene = self._inputs.scene()
             grasp, frame, stamp = scene.grasp, scene.frame, scene.stamp
-        transform = self._inputs.transform(request.header, frame)
+        transform = self._inputs.transform(request.header, frame, stamp)
         load = load_from(request.external_wrench, transform)
         return grasp, Header(stamp=stamp, frame_id=frame), transform, load
 
@@ -80,7 +80,7 @@ class Services:
         """Answer the largest alpha of one wrench, and its forces."""
         grasp, header, transform, load = self._question(request)
         solution = self._evaluate(grasp, wrench_task(request.task_wrench, transform), load)
-        response.result = status_result(solution.status)
+        response.result = status_result(solution.status, pinned=solution.pinned)
         response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
         response.alpha_lower, response.holdable = solution.alpha_lower, solution.holdable
         response.forces = force_array(header, grasp, solution.forces, solution.cone_usage)
@@ -157,5 +157,5 @@ class Services:
         """Set task and load of the live loop, once they are known to be valid."""
         live_task(request, None, self._settings().max_request_size)
         load_from(request.external_wrench, None)
-        self._inputs.task, self._inputs.load = request, None
+        self._inputs.set_task(request)
         response.result = status_result(Status.OPTIMAL)

@@ -21,7 +21,7 @@ GAP_TOLERANCE = 1e-6       # of max(objective, 1e-3 a0)
 RESIDUAL_TOLERANCE = 1e-8  # of the caps' total, torques over the lever arm
 USAGE_TOLERANCE = 1e-9     # over a cone usage, or a use of the bound, of one
 INFEASIBILITY_TOLERANCE = 1e-9  # of the caps' total: distance to any feasible load
-FREE_TASK = 1e-8  # share of lambda by which a task's worth may fall below zero
+FREE_TASK = 1e-8  # share of the multipliers by which a task's worth may fall below zero
 ROUNDING = 1e-12  # share of a cap that may stand outside its cone unseen
 ENDLESS = 1e6  # times the caps: a load that needs more counts as one that no forces balance
 
@@ -223,6 +223,7 @@ def _virtual_slack(problem, multipliers, per_contact, bound_total):
         return along[0] - np.sqrt(along[1:] @ along[1:])
     if virtual.role == 'pressing':
         # the other variables are tasks, alpha >= 0: a lambda that gains by one bounds nothing
-        free = (along[1:] < -FREE_TASK * np.abs(multipliers).max()).any()
+        size = max(np.abs(multipliers).max(), per_contact.max())
+        free = (along[1:] < -FREE_TASK * size).any()
         return -np.inf if free else along[0] + per_contact.sum()
     return along[0]

@@ -18,6 +18,7 @@ from grasp_quality.proof import (
     GAP_TOLERANCE, held, infeasibility_margin, INFEASIBILITY_TOLERANCE, prove)
 from grasp_quality.solution import (
     ConeSolution, dimensional_multiplier, NO_FORCES, NO_USAGE, Solution, Status)
+from grasp_quality.time_limit import TimeLimit
 import numpy as np
 
 NO_WRENCH = frozen(np.zeros(6))
@@ -46,7 +47,7 @@ def prove_optimal(problem, time_limit_s=None):
     problem : ConicProblem
         Program in scaled standard form.
     time_limit_s : float, optional
-        Of each attempt [s].
+        Of all attempts together [s].
 
     Returns
     -------
@@ -58,7 +59,7 @@ def prove_optimal(problem, time_limit_s=None):
 
     """
     said = []
-    for answer in _answers(problem, time_limit_s):
+    for answer in _answers(problem, TimeLimit.of(time_limit_s)):
         if answer.solved:
             optimum = _optimum(problem, answer)
             if optimum.proof.holds:
@@ -73,12 +74,12 @@ def prove_optimal(problem, time_limit_s=None):
         'no answer could be proved; the solver said: ' + '; '.join(said), problem, said[-1])
 
 
-def _answers(problem, time_limit_s):
+def _answers(problem, limit):
     """Ask one solver after the other: the kernel where it knows the problem, then Clarabel."""
     if kernel_solver.handles(problem):
-        yield kernel_solver.run(problem, time_limit_s)
+        yield kernel_solver.run(problem, limit)
     for attempt in range(len(clarabel_solver.ATTEMPTS)):
-        yield clarabel_solver.run(problem, attempt, time_limit_s)
+        yield clarabel_solver.run(problem, attempt, limit)
 
 
 def _optimum(problem, answer):
@@ -116,6 +117,7 @@ def solve(problem, time_limit_s=None):
     SolverError, SolverTimeoutError
 
     """
+    time_limit_s = TimeLimit.of(time_limit_s)
     grasp, virtual = problem.grasp, problem.virtual
     kind = ConeSolution if virtual.is_cone else Solution
     optimum = prove_optimal(problem, time_limit_s)

@@ -1,13 +1,23 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 """
-QoS profiles by what they are for.
+QoS profiles by what they are for, and which contact names can name a topic.
 
 Nothing is ever latched: effort controllers hold their last command for ever, so an old force must
 not be replayed to a late joiner.
 """
 
+import re
+
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+
+TOPIC_RULE = 'names must be letters, digits and single underscores, and begin with a letter'
+
+
+def names_a_topic(name):
+    """Tell whether a contact's name can stand in a topic."""
+    return re.fullmatch('[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?', name) is not None
 
 
 def newest_sample():

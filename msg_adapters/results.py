@@ -18,6 +18,9 @@ CODES = (  # first match wins
     (GraspQualityError, ResultCode.INVALID_REQUEST),
 )
 
+PINNED = ('alpha is pinned: the grasp cannot produce the task wrench at all, the external wrench '
+          'alone decides alpha')
+
 
 def error_result(error):
     """Build the ResultCode of an exception; one that nobody expected is SOLVER_FAILED."""
@@ -29,7 +32,7 @@ def error_result(error):
         message=f'internal error, please report it: {type(error).__name__}: {error}')
 
 
-def status_result(status, detail=''):
+def status_result(status, detail='', pinned=False):
     """Build the ResultCode of an answer; detail says more where it is infeasible."""
     if status is Status.INFEASIBLE:
         return ResultCode(code=ResultCode.INFEASIBLE, message=detail or (
@@ -37,7 +40,7 @@ def status_result(status, detail=''):
             'external wrench together with any share of the task'))
     if status is Status.OPTIMAL_NO_INTERIOR:
         return ResultCode(code=ResultCode.OPTIMAL, message=status.value)
-    return ResultCode(code=ResultCode.OPTIMAL)
+    return ResultCode(code=ResultCode.OPTIMAL, message=PINNED if pinned else '')
 
 
 def code_name(code):

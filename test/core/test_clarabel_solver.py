@@ -5,6 +5,7 @@
 import clarabel
 from grasp_quality import build_problem, SolverError, SolverTimeoutError, TaskWrench
 from grasp_quality.clarabel_solver import ATTEMPTS, run, run_matrices
+from grasp_quality.time_limit import TimeLimit
 from known_grasps import antipodal, FX, FY
 import numpy as np
 import pytest

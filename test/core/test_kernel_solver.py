@@ -9,6 +9,7 @@ import sys
 from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
 from grasp_quality import (
     build_problem, clarabel_solver, kernel_solver, SolverTimeoutError, TaskCone, TaskWrench)
+from grasp_quality.time_limit import TimeLimit
 from known_grasps import antipodal, FX, FY, FZ, three_finger
 import numpy as np
 import pytest

@@ -8,6 +8,7 @@ from answer_checks import support_of_wrenches
 from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
 from grasp_quality import (
     build_problem, clarabel_solver, evaluate, SolverError, TaskCone, TaskWrench)
+from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.proof import infeasibility_margin, prove, worth_of
 from grasp_quality.raw_answer import RawAnswer
 from grasp_quality.solve import prove_optimal
@@ -127,3 +128,19 @@ def test_unproved_answers_end_as_an_error(monkeypatch):
     with pytest.raises(SolverError, match='no answer could be proved.*gap.*residual') as caught:
         prove_optimal(problem)
     assert caught.value.problem is problem
+
+
+def test_a_task_left_open_beside_a_press_is_not_overlooked():
+    """A lambda along which the open task would gain without end bounds nothing."""
+    grasp = antipodal(friction=0.5)
+    normals = grasp.scaled_matrix[:, :, 2].sum(axis=1)
+    task = grasp.scaled_wrench([0.0, 1.0, 0.0, 0.0, 0.0, 0.0])
+    pressing = VirtualContact(
+        np.stack([-normals, task], axis=1), False, np.array([1.0, 0.0]), role='pressing')
+    problem = assemble(grasp, pressing, [0.0, 0.9, 0.0, 0.0, 0.0, 0.0])
+    for lambda_ in np.random.default_rng(0).normal(size=(200, 6)):
+        judged = prove(problem, np.zeros((2, 4)), np.zeros(2), np.append(lambda_, [1.0, 1.0]))
+        if lambda_ @ task < -1e-6 * np.abs(lambda_).max():
+            assert judged.upper == np.inf
+        else:
+            assert judged.upper >= prove_optimal(problem).values[0] - SOLVER
