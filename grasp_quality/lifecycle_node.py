@@ -4,8 +4,8 @@
 The managed node: parameters, subscriptions, services and publishers, wired to the live loop.
 
 Everything is created at once and answers in every lifecycle state, so that a client never waits
-for a service that is not there; only an active node computes. Subscriptions store the newest message;
-those of contacts, task and load then evaluate once. Runs in a single-threaded executor.
+for a service that is not there; only an active node computes. Subscriptions store the newest
+message; those of contacts, task and load then evaluate once. Runs in a single-threaded executor.
 """
 
 import functools

@@ -60,7 +60,7 @@ class LiveLoop:
         settings = self._settings()
         started = time.perf_counter()
         task, load = self._task_and_load(scene)
-        # the watchdog cannot bark during a solve, which must therefore end before contacts are stale
+        # the watchdog cannot bark during a solve, which must end before the contacts are stale
         limit = min(settings.solver_time_limit, settings.max_contact_age)
         solution = evaluate(scene.grasp, task, load, settings.barrier_weight, limit)
         solve_time = time.perf_counter() - started
@@ -68,7 +68,8 @@ class LiveLoop:
         margin = measured_margin(scene)
         quality = GraspQuality(
             header=Header(stamp=scene.stamp, frame_id=scene.frame),
-            result=status_result(solution.status, pinned=solution.pinned), task_wrench=to_wrench(wrench),
+            result=status_result(solution.status, pinned=solution.pinned),
+            task_wrench=to_wrench(wrench),
             alpha=solution.alpha, alpha_upper=solution.alpha_upper,
             alpha_lower=solution.alpha_lower, holdable=solution.holdable,
             friction_margin=solution.friction_margin, limiting_contact=solution.limiting_contact,

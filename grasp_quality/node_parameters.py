@@ -120,7 +120,8 @@ TABLE = {
                           'loaded; 0: all count, measured or not', (0.0, LARGE), False),
     'max_contact_age': (Type.DOUBLE, 'Age [s] beyond which contacts are stale', (1e-3, 3600.0),
                         False),
-    'solver_time_limit': (Type.DOUBLE, 'Time limit of one request or evaluation [s], > 0', (0.0, 3600.0), False),
+    'solver_time_limit': (Type.DOUBLE, 'Time limit of one request or evaluation [s], > 0',
+                          (0.0, 3600.0), False),
     'max_request_size': (Type.INTEGER, 'Largest number of contacts, wrenches or directions of one '
                          'message or request', (1, 1_000_000), False),
     'map_directions': (Type.INTEGER, 'Directions of a wrench map that names none', (2, 1_000_000),
