@@ -51,9 +51,6 @@ def test_evaluate_grasp_says_why_there_is_no_answer(start, run):
     process = run('evaluate_grasp.py', start(autostart='false').namespace)
     assert process.wait() == 1
     assert process.log().startswith('no answer: the node is not active')
-    process = run('evaluate_grasp.py', '/nobody')
-    assert process.wait() == 1
-    assert 'is grasp_quality_node running?' in process.log()
 
 
 def test_follow_forces_is_safe_unless_the_forces_hold(node, run):
