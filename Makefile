@@ -12,7 +12,7 @@ BENCH_FLAGS ?=
 
 help:
 	@echo 'make setup   make .venv (ROS included, where there is none) and build the packages'
-	@echo 'make demo    simulated hand and node, the three services, pictures in build/demo/'
+	@echo 'make demo    simulated hand and node, questions, pictures in build/demo/'
 	@echo '             (DEMO_FLAGS=--keep runs until Ctrl-C)'
 	@echo 'make test    all tests (TEST_FLAGS goes to pytest)'
 	@echo 'make lint    style of the code'

@@ -24,7 +24,7 @@ RIGHT = Pose(position=Point(x=0.02), orientation=Quaternion(y=-HALF, w=HALF))   
 rclpy.init()
 node = rclpy.create_node('evaluate_grasp')
 client = node.create_client(EvaluateTaskWrench, 'grasp_quality/evaluate_task_wrench')
-if not client.wait_for_service(timeout_sec=5.0):
+if not client.wait_for_service(timeout_sec=30.0):
     raise SystemExit(f'no service {client.srv_name}: is grasp_quality_node running?')
 
 request = EvaluateTaskWrench.Request()

@@ -7,8 +7,9 @@ With a node running that has a task and gets contacts (make demo DEMO_FLAGS=--ke
 
     python3 examples/follow_forces.py
 
-Forces hold while they are not empty and the contacts behind them are not old. Any failure of the
-node empties them, its silence makes them old, and so does a sensor that stops: one rule for all.
+Forces hold while they are not empty, the contacts behind them are not old, and alpha is at least
+1: they apply alpha times the task. Any failure of the node empties them, its silence makes them
+old, and so does a sensor that stops: one rule for all.
 
 """
 
@@ -25,7 +26,7 @@ class FollowForces(Node):
     def __init__(self):
         super().__init__('follow_forces')
         self._max_age_s = self.declare_parameter('max_age', 0.1).value
-        self._array, self._result, self._told = ContactForceArray(), ResultCode(), ''
+        self._array, self._quality, self._told = ContactForceArray(), GraspQuality(), ''
         self.create_subscription(
             ContactForceArray, 'grasp_quality/contact_forces', self._store_forces, 1)
         self.create_subscription(GraspQuality, 'grasp_quality/quality', self._store_result, 1)
@@ -35,15 +36,18 @@ class FollowForces(Node):
         self._array = message
 
     def _store_result(self, message):
-        self._result = message.result
+        self._quality = message
 
     def _control(self):
         age = self.get_clock().now() - Time.from_msg(self._array.header.stamp)
-        if self._result.code != ResultCode.OPTIMAL or not self._array.forces:
-            self._tell('safe', self._result.message or 'there are no forces')
+        result = self._quality.result
+        if result.code != ResultCode.OPTIMAL or not self._array.forces:
+            self._tell('safe', result.message or 'there are no forces')
+        elif self._quality.alpha < 1.0:
+            self._tell('safe', f'only {self._quality.alpha:.2f} of the task can be done')
         elif abs(age.nanoseconds) > 1e9 * self._max_age_s:
             self._tell('safe', f'the contacts are {1e-9 * age.nanoseconds:.2f} s old')
-        else:  # here a controller takes tau = J^T f
+        else:  # here a controller takes tau = J^T f / alpha: the share that does the task once
             self._tell('follow', ', '.join(item.name for item in self._array.forces))
 
     def _tell(self, mode, why):

@@ -19,7 +19,7 @@ from grasp_quality.bounds import gauge, support
 from grasp_quality.centering import weighted_center
 from grasp_quality.exceptions import SolverError
 from grasp_quality.problem import assemble, VirtualContact
-from grasp_quality.proof import GAP_TOLERANCE, prove
+from grasp_quality.proof import GAP_TOLERANCE, held, prove
 from grasp_quality.solution import Status
 from grasp_quality.solve import prove_optimal, task_share
 import numpy as np
@@ -62,6 +62,7 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
     center = _center(problem, eps, solution.alpha_upper / unit > NEGLIGIBLE * problem.reach)
     if center is not None:
         shares, values, multipliers = center
+        values = held(values, solution.alpha_upper / unit)
         forces = frozen(shares * grasp.force_units)
         proof = prove(problem, shares, values, multipliers)
         objective = values[0] + eps * _log_det(grasp, shares).sum()

@@ -138,7 +138,10 @@ def _prove(grasp, tasks, load, reach, alpha, shares, multipliers):
     if not load.any():
         alpha = alpha / excess
     balance = shares.reshape(len(tasks), -1) @ G.T + load - alpha[:, None] * tasks
-    residual = np.sqrt((balance * balance).sum(axis=1)) / max(reach, np.sqrt(load @ load))
+    left, size = np.sqrt((balance * balance).sum(axis=1)), np.sqrt(load @ load)
+    residual = left / max(reach, size)
+    imbalance = left / np.maximum(  # tasks have norm one
+        np.maximum(np.abs(alpha), size), proof.SMALL_CAP * grasp.least_cap)
     usage = usage_of_shares(shares, unloaded=proof.ROUNDING).max(axis=1)
     with np.errstate(divide='ignore', invalid='ignore'):
         multipliers = multipliers / (multipliers * tasks).sum(axis=1)[:, None]
@@ -148,6 +151,7 @@ def _prove(grasp, tasks, load, reach, alpha, shares, multipliers):
             np.maximum(worth, 0.0), grasp.groups, np.max).sum(axis=1)
         gap = (upper - alpha) / np.maximum(alpha, 1e-3 * reach)
     proved = (gap <= proof.GAP_TOLERANCE) & (residual <= proof.RESIDUAL_TOLERANCE) \
+        & (imbalance <= proof.IMBALANCE_TOLERANCE) \
         & (usage <= 1.0 + proof.USAGE_TOLERANCE)
     return np.clip(alpha, 0.0, np.where(proved, upper, np.inf)), shares, proved
 

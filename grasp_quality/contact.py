@@ -15,6 +15,7 @@ from grasp_quality.arrays import checked, checked_number, frozen
 from grasp_quality.exceptions import InvalidContactError
 import numpy as np
 
+FARTHEST = 1e3  # [m], of any coordinate: one far contact would drown the others' torques
 IDENTITY = frozen(np.eye(3))
 ROTATION_TOLERANCE = 1e-6  # largest |R^T R - I| entry that still counts as a rotation
 
@@ -75,6 +76,10 @@ class Contact:
             object.__setattr__(self, field, value)
 
         put('position', checked(self.position, (3,), label + 'position', InvalidContactError))
+        if np.abs(self.position).max() > FARTHEST:
+            raise InvalidContactError(
+                f'{label}position must lie within {FARTHEST:g} m of the origin, '
+                f'got {self.position.tolist()}')
         put('rotation', self._frame(label))
         put('normal', self.rotation[:, 2])
         if not isinstance(self.model, ContactModel):

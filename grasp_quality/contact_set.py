@@ -11,7 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from grasp_quality.arrays import checked, frozen
-from grasp_quality.contact import Contact, ContactModel, IDENTITY, ROTATION_TOLERANCE
+from grasp_quality.contact import (
+    Contact, ContactModel, FARTHEST, IDENTITY, ROTATION_TOLERANCE)
 from grasp_quality.exceptions import InvalidContactError
 import numpy as np
 
@@ -67,6 +68,9 @@ class ContactSet(Sequence):
             self._refuse((skew.max(axis=(1, 2)) > ROTATION_TOLERANCE) | (np.linalg.det(R) < 0.0),
                          'rotation must be a right-handed orthonormal matrix (columns t1, t2, '
                          'inward normal)')
+        if np.abs(self.positions).max() > FARTHEST:
+            self._refuse(np.abs(self.positions).max(axis=1) > FARTHEST,
+                         f'position must lie within {FARTHEST:g} m of the origin')
         if self.friction.min() < 0.0:
             self._refuse(self.friction < 0.0, 'friction must be at least 0')
         if self.torsional_friction.min() < 0.0:
@@ -80,7 +84,8 @@ class ContactSet(Sequence):
     def _refuse(self, broken, rule):
         i = int(np.flatnonzero(broken)[0])
         raise InvalidContactError(
-            f'contact {i} ({self.names[i]!r}): {rule}, got model {self.models[i]}, friction '
+            f'contact {i} ({self.names[i]!r}): {rule}, got position '
+            f'{self.positions[i].tolist()}, model {self.models[i]}, friction '
             f'{self.friction[i]:g}, torsional_friction {self.torsional_friction[i]:g}, '
             f'max_normal_force {self.max_normal_forces[i]:g}, '
             f'rotation {self.rotations[i].tolist()}')

@@ -20,6 +20,7 @@ from grasp_quality.friction_cone import coordinate_scales
 from grasp_quality.wrench import shift, skew
 import numpy as np
 
+MAX_CAP_RATIO = 1e6   # between the caps of one grasp
 RANK_TOLERANCE = 1e-9  # singular values below this share of the largest count as zero
 COINCIDENT = 1e-8      # distance over distance from the origin: float64 keeps 1e-16 of the latter
 
@@ -55,6 +56,11 @@ class Grasp:
         if len(set(named)) < len(named):
             twice = sorted({name for name in named if named.count(name) > 1})
             raise InvalidGraspError(f'contact names must be unique, given twice: {twice}')
+        caps = contacts.max_normal_forces
+        if caps.max() > MAX_CAP_RATIO * caps.min():
+            raise InvalidGraspError(
+                f'max_normal_force of one grasp may span a factor of {MAX_CAP_RATIO:g} at most, '
+                f'got {caps.min():g} to {caps.max():g} N: no answer could be exact for both')
         object.__setattr__(self, 'contacts', contacts)
         object.__setattr__(self, 'groups', bounds.groups_of(self.bound, contacts.fingers))
 
@@ -168,6 +174,11 @@ class Grasp:
         """Largest sum of normals that the bound allows, as a share of the largest cap."""
         return bounds.support(
             self.max_normal_forces / self.force_scale, self.bound, self.groups)
+
+    @cached_property
+    def least_cap(self):
+        """Smallest cap as a share of the largest."""
+        return float(self.max_normal_forces.min()) / self.force_scale
 
     @cached_property
     def _range(self):

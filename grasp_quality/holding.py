@@ -22,6 +22,8 @@ from grasp_quality.time_limit import TimeLimit
 from grasp_quality.wrench import as_wrench
 import numpy as np
 
+NEGLIGIBLE = 1e-15  # share of the caps that needs no forces to hold
+
 
 @dataclass(frozen=True, eq=False)
 class MinimumForces:
@@ -87,11 +89,11 @@ def minimum_forces(grasp, external_wrench, time_limit_s=None):
     """
     time_limit_s = TimeLimit.of(time_limit_s)
     load = as_wrench(external_wrench, 'external wrench')
-    if not load.any():
-        return MinimumForces(grasp, Status.OPTIMAL, np.zeros((len(grasp), 4)), 0.0, 0.0, 0.0,
-                             np.zeros(len(grasp)))
     scaled = grasp.scaled_wrench(load)
     size = float(np.sqrt(scaled @ scaled))
+    if size <= NEGLIGIBLE:
+        return MinimumForces(grasp, Status.OPTIMAL, np.zeros((len(grasp), 4)), 0.0, 0.0, 0.0,
+                             np.zeros(len(grasp)))
     widening = VirtualContact(np.zeros((6, 1)), False, np.array([-1.0]), role='widening')
     optimum = prove_optimal(assemble(grasp, widening, load / size), time_limit_s)
     if optimum is None:

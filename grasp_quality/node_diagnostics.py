@@ -73,7 +73,9 @@ class Monitor:
             values[f'ignored input {i}'] = problem
         status = DiagnosticStatus(
             level=self._level(problems), name=f'{self._node.get_name()}: live loop',
-            message=self._result.message or code_name(self._result.code),
+            message='; '.join(filter(None, [
+                self._result.message or code_name(self._result.code),
+                f'{len(problems)} measured wrenches ignored' if problems else ''])),
             hardware_id=self._node.get_fully_qualified_name(),
             values=[KeyValue(key=key, value=value) for key, value in values.items()])
         message = DiagnosticArray(status=[status])

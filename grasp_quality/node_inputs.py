@@ -3,10 +3,10 @@
 """
 What the node has received: the newest message of every topic, and how old it is.
 
-Nothing is judged on arrival. ``scene`` turns the newest contacts into core objects when they are asked
-for; a message that cannot be used is an error there, and the next good one is all it takes to
-recover. Arrival is told by the steady clock, stamps by the ROS clock: contacts are as old as the
-older of the two says. Task and load hold until they are replaced.
+Nothing is judged on arrival. ``scene`` turns the newest contacts into core objects when they are
+asked for; a message that cannot be used is an error there, and the next good one is all it takes
+to recover. Arrival is told by the steady clock, stamps by the ROS clock: contacts are as old as
+the older of the two says. Task and load hold until they are replaced.
 """
 
 from dataclasses import dataclass
@@ -25,7 +25,9 @@ from msg_adapters.stamps import stamp_ns
 from msg_adapters.wrenches import to_wrench
 import numpy as np
 
-LOADED_MEASUREMENTS = 'no contact is loaded: no measured normal force reaches min_contact_force'
+NOT_LOADED = (
+    'no contact is loaded: no measured normal force, of the finger on the object, reaches '
+    'min_contact_force')
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,8 +74,18 @@ class Inputs:
         self._wrenches = {}
 
     def store_contacts(self, message):
-        """Keep a PoseArray or ContactArray."""
-        self._contacts = (message, time.monotonic_ns())
+        """Keep a PoseArray or ContactArray, unless one with a later stamp is still fresh."""
+        if not self._is_late(message):
+            self._contacts = (message, time.monotonic_ns())
+
+    def _is_late(self, message):
+        if self._contacts is None or not stamp_ns(message.header.stamp):
+            return False
+        try:
+            self.age_s()
+        except StaleContactsError:
+            return False
+        return stamp_ns(message.header.stamp) < stamp_ns(self._contacts[0].header.stamp)
 
     def store_wrench(self, name, message):
         """Keep the measured WrenchStamped of a contact."""
@@ -143,7 +155,9 @@ class Inputs:
             loaded = [i for i, force in enumerate(forces)
                       if force is not None and force[2] >= settings.min_contact_force]
             if not loaded:
-                raise NoContactsError(LOADED_MEASUREMENTS)
+                silent = [name for name, force in zip(grasp.names, forces) if force is None]
+                raise NoContactsError(NOT_LOADED + (
+                    f'; no fresh wrench came for {silent}' if silent else ''))
             grasp = Grasp(grasp.contacts.subset(loaded), settings.force_bound)
             forces = [forces[i] for i in loaded]
         return Scene(grasp, tuple(forces), frame, message.header.stamp)

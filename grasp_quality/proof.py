@@ -19,9 +19,11 @@ import numpy as np
 
 GAP_TOLERANCE = 1e-6       # of max(objective, 1e-3 a0)
 RESIDUAL_TOLERANCE = 1e-8  # of the caps' total, torques over the lever arm
+IMBALANCE_TOLERANCE = 1e-6  # of the task's or the load's own size
 USAGE_TOLERANCE = 1e-9     # over a cone usage, or a use of the bound, of one
 INFEASIBILITY_TOLERANCE = 1e-9  # of the caps' total: distance to any feasible load
 FREE_TASK = 1e-8  # share of the multipliers by which a task's worth may fall below zero
+SMALL_CAP = 1e-2  # share of the smallest cap that counts as something to balance
 ROUNDING = 1e-12  # share of a cap that may stand outside its cone unseen
 ENDLESS = 1e6  # times the caps: a load that needs more counts as one that no forces balance
 
@@ -39,6 +41,9 @@ class Proof:
         |G x + F_ext - alpha F| as a share of the caps' total.
     usage : float
         Largest cone usage of a contact.
+    imbalance : float
+        The same residual as a share of what is balanced: the larger of task and load, or a
+        hundredth of the smallest cap. Keeps small fingers honest beside large ones.
     bound_usage : float
         How much of the force bound the normals take.
     multiplier : (6,) array
@@ -53,6 +58,7 @@ class Proof:
     objective: float
     upper: float
     residual: float
+    imbalance: float
     usage: float
     bound_usage: float
     multiplier: np.ndarray
@@ -70,6 +76,7 @@ class Proof:
         return bool(
             self.gap <= GAP_TOLERANCE
             and self.residual <= RESIDUAL_TOLERANCE
+            and self.imbalance <= IMBALANCE_TOLERANCE
             and self.usage <= 1.0 + USAGE_TOLERANCE
             and self.bound_usage <= 1.0 + USAGE_TOLERANCE)
 
@@ -125,15 +132,18 @@ def prove(problem, shares, values, multipliers):
                + problem.scaled_external_wrench)
     widening = virtual.role == 'widening'
     allowed = values[0] if widening else 1.0
-    if not widening:
-        balance = balance - virtual.columns @ values
+    applied = 0.0 if widening else virtual.columns @ values
+    balance = balance - applied
     pressed = shares[:, 2] + (values[0] if virtual.role == 'pressing' else 0.0)
     used = bounds.gauge(pressed, grasp.bound, grasp.groups)
     load = problem.scaled_external_wrench
     size_of_forces = max(problem.reach * allowed, math.sqrt(load @ load))
+    left = math.sqrt(balance @ balance)
+    balanced = math.sqrt(max(load @ load, np.vdot(applied, applied)))
     return Proof(
         objective=float(virtual.objective @ values), upper=float(upper),
-        residual=math.sqrt(balance @ balance) / size_of_forces,
+        residual=left / size_of_forces,
+        imbalance=left / max(balanced, SMALL_CAP * grasp.least_cap),
         usage=float(friction_cone.usage_of_shares(shares, unloaded=ROUNDING).max()),
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
         multiplier=frozen(multipliers), bound_multiplier=frozen(per_contact),

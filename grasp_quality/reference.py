@@ -19,7 +19,7 @@ from grasp_quality.grasp import Grasp
 import numpy as np
 
 SOLVER_SETTINGS = {
-    'solver': cp.CLARABEL, 'tol_gap_abs': 1e-10, 'tol_gap_rel': 1e-10, 'tol_feas': 1e-10}
+    'solver': cp.CLARABEL, 'tol_gap_abs': 1e-9, 'tol_gap_rel': 1e-9, 'tol_feas': 1e-9}
 
 
 @dataclass(frozen=True, eq=False)

@@ -165,6 +165,9 @@ def _lower_end(problem, alpha, time_limit_s):
     if optimum is None:  # feasible upward and infeasible downward: a load at the very edge
         return alpha, False
     lower = min(max(float(optimum.values[0]), 0.0) * unit, alpha)
-    if lower <= GAP_TOLERANCE * max(alpha, 1e-3 * unit * problem.reach):
+    load = problem.scaled_external_wrench
+    # against the load's own size, as far as a proof to 1e-9 a0 can tell it from zero
+    noise = max(GAP_TOLERANCE * np.sqrt(load @ load), 2e-3 * GAP_TOLERANCE * problem.reach)
+    if lower <= unit * noise:
         return 0.0, True
     return lower, False

@@ -12,12 +12,14 @@ import re
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 
-TOPIC_RULE = 'names must be letters, digits and single underscores, and begin with a letter'
+TOPIC_RULE = ('names must be letters, digits and single underscores, begin with a letter, and '
+              'have at most 64 characters')
+TOPIC_NAME = re.compile('[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?')
 
 
 def names_a_topic(name):
     """Tell whether a contact's name can stand in a topic."""
-    return re.fullmatch('[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?', name) is not None
+    return len(name) <= 64 and TOPIC_NAME.fullmatch(name) is not None
 
 
 def newest_sample():
