@@ -27,12 +27,18 @@ class Outputs:
         for heard in (self.quality, self.forces, self.alpha, *self.wrenches.values()):
             heard.clear()
 
-    def answer(self, feed, condition=lambda quality: True):
-        """Feed contacts until they have an OPTIMAL answer; return its parts, joined by stamp."""
+    def answer(self, feed, condition=lambda quality: True, names=None):
+        """
+        Feed contacts until they have an OPTIMAL answer; return its parts, joined by stamp.
+
+        ``names`` are those of the contacts that must have forces: measurements of an instant may
+        arrive after its poses.
+
+        """
         self.forget()
         begin = stamp_ns(self._client.now())
         found = self._client.until(
-            lambda: self._complete(begin, condition), 'an OPTIMAL answer', feed)
+            lambda: self._complete(begin, condition, names), 'an OPTIMAL answer', feed)
         self._client.until(
             lambda: any(m.data == found.quality.alpha for m in self.alpha), 'its alpha', feed)
         return found
@@ -53,7 +59,7 @@ class Outputs:
     def _last(self):
         return self.quality[-1].result if self.quality else 'silence'
 
-    def _complete(self, begin, condition):
+    def _complete(self, begin, condition, names):
         for quality in self.quality:
             stamp = quality.header.stamp
             optimal = quality.result.code == ResultCode.OPTIMAL and stamp_ns(stamp) >= begin
@@ -63,6 +69,8 @@ class Outputs:
             wrenches = {
                 name: m for name, heard in self.wrenches.items() for m in heard
                 if m.header.stamp == stamp}
+            if names and forces and [item.name for item in forces[-1].forces] != names:
+                continue
             if forces and len(wrenches) == len(self.wrenches):
                 return SimpleNamespace(quality=quality, forces=forces[-1], wrenches=wrenches)
         return None
