@@ -7,6 +7,7 @@ Nothing here sleeps in the hope that something has happened: every wait is for a
 fails after ``DEADLINE_S``.
 """
 
+import ctypes
 import functools
 import os
 from pathlib import Path
@@ -25,6 +26,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 DEADLINE_S = 20.0
 START_S = 120.0  # the first start after a change compiles the solver
 FEED_PERIOD_S = 0.01
+PR_SET_PDEATHSIG = 1  # linux/prctl.h
 FIRST_PORT = 32768  # a TCP port per domain: who binds it has the domain
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -43,6 +45,11 @@ def claim_domain():
     raise RuntimeError('no free ROS domain: end another test run first')
 
 
+def end_with_parent():
+    """Ask the kernel for a SIGINT when the test run is gone, so that nothing is left behind."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGINT)
+
+
 class Process:
     """A child in a session of its own, with a log file."""
 
@@ -53,7 +60,7 @@ class Process:
             self.popen = subprocess.Popen(
                 [str(part) for part in command], stdin=subprocess.DEVNULL, stdout=output,
                 stderr=subprocess.STDOUT, start_new_session=True, env=environment,
-                cwd=cwd)
+                cwd=cwd, preexec_fn=end_with_parent)
 
     def log(self):
         """Return what the process has printed."""
