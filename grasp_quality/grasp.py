@@ -71,7 +71,11 @@ class Grasp:
     @cached_property
     def names(self):
         """Name of every contact; 'contact_<index>' where none was given."""
-        return tuple(name or f'contact_{i}' for i, name in enumerate(self.contacts.names))
+        return tuple(self.name_of(i) for i in range(len(self)))
+
+    def name_of(self, index):
+        """Return the name of one contact."""
+        return self.contacts.names[index] or f'contact_{index}'
 
     @property
     def positions(self):

@@ -39,8 +39,8 @@ class Proof:
         Value that the forces reach, and a bound that no forces can exceed.
     residual : float
         |G x + F_ext - alpha F| as a share of the caps' total.
-    usage : float
-        Largest cone usage of a contact.
+    cone_usage : (k,) array
+        Share of each friction cone in use, down to rounding.
     imbalance : float
         The same residual as a share of what is balanced: the larger of task and load, or a
         hundredth of the smallest cap. Keeps small fingers honest beside large ones.
@@ -59,11 +59,16 @@ class Proof:
     upper: float
     residual: float
     imbalance: float
-    usage: float
+    cone_usage: np.ndarray
     bound_usage: float
     multiplier: np.ndarray
     bound_multiplier: np.ndarray
     size: float
+
+    @property
+    def usage(self):
+        """Largest cone usage of a contact."""
+        return float(self.cone_usage.max())
 
     @property
     def gap(self):
@@ -144,7 +149,7 @@ def prove(problem, shares, values, multipliers):
         objective=float(virtual.objective @ values), upper=float(upper),
         residual=left / size_of_forces,
         imbalance=left / max(balanced, SMALL_CAP * grasp.least_cap),
-        usage=float(friction_cone.usage_of_shares(shares, unloaded=ROUNDING).max()),
+        cone_usage=friction_cone.usage_of_shares(shares, unloaded=ROUNDING),
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
         multiplier=frozen(multipliers), bound_multiplier=frozen(per_contact),
         size=1.0 if virtual.role != 'task' else problem.reach)

@@ -121,7 +121,7 @@ class Solution:
     @cached_property
     def limiting_contact(self):
         """Name of the contact whose cap is worth most to the task; '' when none is."""
-        return self.grasp.names[self._limit] if self._limit is not None else ''
+        return self.grasp.name_of(self._limit) if self._limit is not None else ''
 
     @cached_property
     def limiting_reason(self):

@@ -131,11 +131,12 @@ def solve(problem, time_limit_s=None):
     suspect = loaded or alpha <= GAP_TOLERANCE * proof.size * unit
     pinned = suspect and not virtual.is_cone and not grasp.spans(virtual.wrenches[0])
     forces = frozen(optimum.shares * grasp.force_units)
+    is_loaded = optimum.shares[:, 2] > friction_cone.UNLOADED
     return kind(
         grasp=grasp, status=Status.OPTIMAL, alpha=alpha,
         alpha_upper=max(proof.upper * unit, alpha), alpha_lower=lower, holdable=holdable,
         pinned=pinned, wrench=wrench,
-        forces=forces, cone_usage=frozen(friction_cone.usage_of_shares(optimum.shares)),
+        forces=forces, cone_usage=frozen(np.where(is_loaded, proof.cone_usage, 0.0)),
         proof=proof, multiplier=dimensional_multiplier(problem, proof.multiplier),
         bound_multiplier=frozen(proof.bound_multiplier * unit),
         reference_forces=forces)

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many wrenches at once: the same answers as one by one, and every one of them proved."""
 
-from grasp_quality import Contact, ContactModel, evaluate, Grasp, TaskWrench, wrench_map
-from grasp_quality.batch import solve_wrenches
+from benchmarks.random_grasps import degenerate_grasp, degenerate_load, random_grasp
+from grasp_quality import (
+    Contact, ContactModel, evaluate, Grasp, SolverError, TaskWrench, wrench_map)
+from grasp_quality.batch import SMALL, solve_wrenches
 from grasp_quality.bounds import BOUNDS
 from grasp_quality.directions import force_grid
 import numpy as np
@@ -53,3 +55,32 @@ def test_a_load_that_nothing_balances_is_infeasible_everywhere():
 def test_few_are_handed_over():
     batch = solve_wrenches(ball_grasp(8, 'linf', seed=4), force_grid(12))
     assert batch.handed_over <= 0.01 * len(batch.alpha)
+
+
+def test_threads_change_nothing():
+    rng = np.random.default_rng(3)
+    grasp = random_grasp(rng, count=8, bound='linf')
+    wrenches = rng.normal(size=(3 * SMALL, 6))
+    whole = solve_wrenches(grasp, wrenches)
+    parts = [solve_wrenches(grasp, part).alpha for part in np.split(wrenches, 3)]
+    assert whole.alpha == pytest.approx(np.concatenate(parts), rel=1e-12)
+    assert whole.feasible.all()
+
+
+def test_degenerate_grasps():
+    compared = 0
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        grasp = degenerate_grasp(rng)
+        wrenches, load = rng.normal(size=(5, 6)), degenerate_load(rng, grasp)
+        try:
+            batch = solve_wrenches(grasp, wrenches, load)
+            ones = [evaluate(grasp, TaskWrench(w), external_wrench=load) for w in wrenches]
+        except SolverError:
+            continue
+        for i, one in enumerate(ones):
+            size = np.linalg.norm(grasp.scaled_wrench(wrenches[i])) / grasp.cap_total
+            assert batch.feasible[i] == one.feasible
+            assert batch.alpha[i] * size == pytest.approx(one.alpha * size, abs=1e-5, rel=1e-5)
+            compared += 1
+    assert compared > 150
