@@ -8,7 +8,6 @@ import mujoco
 import numpy as np
 
 STIFFNESS = 10.0              # of the joints [N m/rad]
-JOINT_DAMPING = 0.4           # [N m s/rad]
 CLEARANCE = 0.03              # of the open fingertips from the object [m]
 APPROACH_TIME = 0.6           # from open to touch [s]
 SQUEEZE_TIME = 0.4            # from touch to the full squeeze [s]
@@ -34,6 +33,7 @@ class GraspController:
         self.q_touch = inverse_kinematics(hand, self._tip_targets(touch, 0.0))
         self.q_open = inverse_kinematics(hand, self._tip_targets(touch, CLEARANCE))
         self._closed_at = None
+        self._held = None
 
     def _tip_targets(self, touch, clearance):
         """Return where the centres of the fingertips stand off the object by clearance."""
@@ -41,12 +41,16 @@ class GraspController:
 
     def open_hand(self):
         """Go to the open posture."""
-        self._closed_at = None
+        self._closed_at = self._held = None
 
     def close_hand(self, time):
         """Begin to close at the simulated time, in seconds."""
         if self._closed_at is None:
             self._closed_at = time
+
+    def hold_here(self, data):
+        """Take the joint angles as they are for the posture of the closed hand."""
+        self._held = data.qpos[self._hand.joint_qpos].copy()
 
     def squeeze_share(self, time):
         """Return the share of the full squeeze at the simulated time, in [0, 1]."""
@@ -55,21 +59,21 @@ class GraspController:
         return float(np.clip((time - self._closed_at - APPROACH_TIME) / SQUEEZE_TIME, 0.0, 1.0))
 
     def torques(self, data):
-        """Return the joint torques, shape (9,), in newton metres, limited as in the URDF."""
+        """Return the joint torques, shape (9,), in newton metres."""
         hand = self._hand
         error = self._posture(data.time) - data.qpos[hand.joint_qpos]
-        torques = (STIFFNESS * error - JOINT_DAMPING * data.qvel[hand.joint_dof]
-                   + data.qfrc_bias[hand.joint_dof])
+        torques = STIFFNESS * error + data.qfrc_bias[hand.joint_dof]
         share = self.squeeze_share(data.time)
         if share > 0.0:
             torques += share * self._squeeze_torques(data)
-        limits = hand.mujoco.jnt_actfrcrange[:len(torques)]
-        return np.clip(torques, limits[:, 0], limits[:, 1])
+        return torques
 
     def _posture(self, time):
         """Return the joint angles to hold at the simulated time, shape (9,) [rad]."""
         if self._closed_at is None:
             return self.q_open
+        if self._held is not None:
+            return self._held
         s = min((time - self._closed_at) / APPROACH_TIME, 1.0)
         s = s * s * (3.0 - 2.0 * s)
         return (1.0 - s) * self.q_open + s * self.q_touch

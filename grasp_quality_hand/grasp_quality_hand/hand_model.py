@@ -17,6 +17,7 @@ TIP_RADIUS = 0.010                          # [m]
 HOLDER = 'holder'                           # the weld that holds the object before the grasp
 TIMESTEP = 0.001                            # [s]
 ARMATURE = 0.003                            # inertia of the geared motors at the joints [kg m^2]
+DAMPING = 0.4                               # of the geared motors [N m s/rad]
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,8 @@ class HandModel:
         Names as in the URDF, finger by finger, from the base out.
     joint_qpos, joint_dof : ndarray, shape (9,)
         Addresses of the joints in qpos and in qvel.
+    effort_limits : ndarray, shape (9, 2)
+        Smallest and largest torque of each joint's motor, as in the URDF [N m].
     finger_of_geom : ndarray, shape (ngeom,)
         Index of the finger that a geometry belongs to, -1 for none.
     tip_bodies, tip_geoms : ndarray, shape (3,)
@@ -47,6 +50,7 @@ class HandModel:
     joint_names: tuple
     joint_qpos: np.ndarray
     joint_dof: np.ndarray
+    effort_limits: np.ndarray
     finger_of_geom: np.ndarray
     tip_bodies: np.ndarray
     tip_geoms: np.ndarray
@@ -81,7 +85,7 @@ def build_hand_model(grasp_object, dclaw=None):
         geom.contype, geom.conaffinity = 1, 0
         _set_friction(geom)
     for joint in spec.joints:
-        joint.armature = ARMATURE
+        joint.armature, joint.damping[0] = ARMATURE, DAMPING
         motor = spec.add_actuator(name=joint.name, target=joint.name,
                                   trntype=mujoco.mjtTrn.mjTRN_JOINT)
         motor.set_to_motor()
@@ -154,6 +158,7 @@ def _index(model):
         joint_names=tuple(joint.name for joint in joints),
         joint_qpos=np.array([joint.qposadr[0] for joint in joints]),
         joint_dof=np.array([joint.dofadr[0] for joint in joints]),
+        effort_limits=model.jnt_actfrcrange[[joint.id for joint in joints]],
         finger_of_geom=finger_of_geom,
         tip_bodies=tip_bodies,
         tip_geoms=np.array(tip_geoms),

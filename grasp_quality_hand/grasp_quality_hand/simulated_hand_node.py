@@ -8,6 +8,7 @@ import time
 
 from geometry_msgs.msg import PoseArray, PoseStamped, Vector3Stamped, WrenchStamped
 from grasp_quality_hand import hand_messages
+from grasp_quality_hand.effort_input import BadCommand, COMMAND_TIMEOUT
 from grasp_quality_hand.fetch_dclaw import DClawUnavailable
 from grasp_quality_hand.grasp_objects import OBJECTS
 from grasp_quality_hand.hand_model import FINGERS
@@ -20,16 +21,18 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import Trigger
 
 RATE_HZ = 100.0
+CONTROLLER = 'effort_controller'
+COMMAND_WARNING_PERIOD_S = 1.0
 LONGEST_STRIDE_S = 0.05      # a machine that falls behind loses simulated time, not its rate
 SENSOR_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
 class SimulatedHandNode(Node):
-    """Runs a HandSimulation paced to real time and publishes it at 100 Hz."""
+    """Runs a HandSimulation paced to real time and publishes it."""
 
     def __init__(self):
         super().__init__('simulated_hand')
@@ -40,13 +43,25 @@ class SimulatedHandNode(Node):
         self.declare_parameter('squeeze_force', SQUEEZE_FORCE, ParameterDescriptor(
             description='largest normal force of the squeeze [N], from the next load_object on',
             floating_point_range=[FloatingPointRange(from_value=0.1, to_value=30.0)]))
+        rate = self.declare_parameter('rate', RATE_HZ, ParameterDescriptor(
+            description='rate of all topics [Hz]', read_only=True,
+            floating_point_range=[FloatingPointRange(from_value=10.0, to_value=500.0)])).value
+        efforts = self.declare_parameter('effort_controller', CONTROLLER, ParameterDescriptor(
+            description='efforts are taken from <this>/commands, one for each joint in the order '
+                        'of /joint_states', read_only=True)).value
+        self.declare_parameter('command_timeout', COMMAND_TIMEOUT, ParameterDescriptor(
+            description="age of an effort command [s] beyond which the hand's own controller "
+                        'takes over, from the next load_object on',
+            floating_point_range=[FloatingPointRange(from_value=0.01, to_value=10.0)]))
         self.add_on_set_parameters_callback(self._check_parameters)
         self._create_publishers('/' + target.strip('/'))
         self._load()
         self.create_service(Trigger, '~/close', self._on_close)
         self.create_service(Trigger, '~/open', self._on_open)
         self.create_service(Trigger, '~/load_object', self._on_load_object)
-        self.create_timer(1.0 / RATE_HZ, self._on_timer)
+        self.create_subscription(Float64MultiArray, f'/{efforts.strip("/")}/commands',
+                                 self._on_efforts, 1)
+        self.create_timer(1.0 / rate, self._on_timer)
 
     def _create_publishers(self, target):
         """Create the topics of the contacts below the node they are for, and the hand's own."""
@@ -73,8 +88,9 @@ class SimulatedHandNode(Node):
 
     def _load(self):
         """Begin anew with the object and the squeeze force of the parameters, hand open."""
-        self._simulation = HandSimulation(self.get_parameter('object').value,
-                                          self.get_parameter('squeeze_force').value)
+        self._simulation = HandSimulation(
+            self.get_parameter('object').value, self.get_parameter('squeeze_force').value,
+            command_timeout=self.get_parameter('command_timeout').value)
         self._simulated_until = time.monotonic()
 
     def _on_close(self, request, response):
@@ -91,6 +107,14 @@ class SimulatedHandNode(Node):
         """Load the object of the parameter `object` into the open hand."""
         self._load()
         return self._answer(response, f'loaded the {self._simulation.object.name}')
+
+    def _on_efforts(self, message):
+        """Take an effort command; say so when it cannot be used."""
+        try:
+            self._simulation.command_efforts(message.data)
+        except BadCommand as error:
+            self.get_logger().warning(f'effort command ignored: {error}',
+                                      throttle_duration_sec=COMMAND_WARNING_PERIOD_S)
 
     @staticmethod
     def _answer(response, message):

@@ -3,6 +3,7 @@
 """The simulated hand with an object in it."""
 
 from grasp_quality_hand.contact_reading import contact_points, finger_contacts
+from grasp_quality_hand.effort_input import COMMAND_TIMEOUT, EffortInput
 from grasp_quality_hand.grasp_controller import GraspController
 from grasp_quality_hand.grasp_objects import OBJECTS
 from grasp_quality_hand.hand_model import build_hand_model, TIMESTEP
@@ -17,11 +18,13 @@ class HandSimulation:
     D'Claw, palm up, with one object, its controller and its contacts.
 
     A holder keeps the object in place until the fingers squeeze it in full, and takes it back
-    when the hand opens.
+    when the hand opens. While effort commands come, and the fingers alone hold the object, they
+    are the torques of the joints; otherwise the hand's own controller is.
 
     """
 
-    def __init__(self, object_name='cube', squeeze_force=SQUEEZE_FORCE, dclaw=None):
+    def __init__(self, object_name='cube', squeeze_force=SQUEEZE_FORCE, dclaw=None,
+                 command_timeout=COMMAND_TIMEOUT):
         if object_name not in OBJECTS:
             raise ValueError(f'object {object_name!r} is not known: it must be one of '
                              f'{", ".join(OBJECTS)}')
@@ -29,6 +32,7 @@ class HandSimulation:
         self.hand = build_hand_model(self.object, dclaw)
         self.data = mujoco.MjData(self.hand.mujoco)
         self.controller = GraspController(self.hand, self.object, squeeze_force)
+        self.efforts = EffortInput(self.hand.joint_names, command_timeout)
         self.data.qpos[self.hand.joint_qpos] = self.controller.q_open
         mujoco.mj_forward(self.hand.mujoco, self.data)
 
@@ -51,6 +55,7 @@ class HandSimulation:
         address = self.hand.object_qpos
         self.data.qpos[address:address + 7] = self.hand.mujoco.qpos0[address:address + 7]
         self.data.eq_active[self.hand.holder] = 1
+        self.efforts.forget()
         self.controller.open_hand()
 
     def advance(self, duration):
@@ -59,9 +64,22 @@ class HandSimulation:
         for _ in range(steps):
             if self.controller.squeeze_share(self.time) == 1.0:
                 self.data.eq_active[self.hand.holder] = 0
-            self.data.ctrl[:] = self.controller.torques(self.data)
+            self.data.ctrl[:] = self._torques()
             mujoco.mj_step(self.hand.mujoco, self.data)
         return steps * TIMESTEP
+
+    def command_efforts(self, efforts):
+        """Take torques for the joints, shape (9,) [N m]; raise BadCommand for unusable ones."""
+        self.efforts.put(efforts, self.time)
+
+    def _torques(self):
+        """Return the torques of the motors for this time step, shape (9,) [N m]."""
+        torques = self.controller.torques(self.data)
+        if self.held:
+            torques = self.efforts.mix(torques, self.time, TIMESTEP)
+            if self.efforts.share > 0.0:
+                self.controller.hold_here(self.data)
+        return np.clip(torques, *self.hand.effort_limits.T)
 
     def finger_contacts(self):
         """Return one MeasuredContact per finger, in the order of FINGERS."""

@@ -20,7 +20,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import Trigger
 
 DEADLINE = 20.0              # for anything that is waited for [s]
@@ -164,6 +164,25 @@ def test_closed_hand_holds_the_object_it_was_given(client, name):
     assert mass == {'cube': 0.2, 'ball': 0.15}[name]
     assert newest['/simulated_hand/object_pose'].pose.position.z > 0.15
     assert len(newest['/joint_states'].name) == len(newest['/joint_states'].position) == 9
+
+
+def test_effort_commands_reach_the_joints_and_bad_ones_do_not(client):
+    client.trigger('load_object')
+    client.trigger('close')
+    poses = client.heard[f'{TARGET}/contact_wrenches/{FINGERS[0]}']
+    client.spin_until(lambda: poses and poses[-1].wrench.force.z > 4.0)
+    publisher = client.node.create_publisher(Float64MultiArray, '/effort_controller/commands', 1)
+    joints = client.heard['/joint_states']
+    command = [effort + 0.01 for effort in joints[-1].effort]
+
+    def commanded():
+        publisher.publish(Float64MultiArray(data=command))
+        publisher.publish(Float64MultiArray(data=command[:-1]))
+        publisher.publish(Float64MultiArray(data=[float('nan')] * len(command)))
+        return list(joints[-1].effort) == command
+
+    client.spin_until(commanded)
+    client.spin_until(lambda: list(joints[-1].effort) != command)    # silence gives back
 
 
 def test_unknown_object_is_refused(client):

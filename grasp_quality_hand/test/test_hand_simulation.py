@@ -124,3 +124,25 @@ def test_simulation_is_faster_than_real_time(held):
 def test_unknown_object_is_refused():
     with pytest.raises(ValueError, match='must be one of cube, ball'):
         HandSimulation('teapot')
+
+
+@pytest.mark.parametrize('name', sorted(OBJECTS))
+def test_commanded_efforts_are_the_joints_torques_and_silence_drops_nothing(name):
+    simulation = close_on(name)
+    position, efforts = simulation.object_position(), simulation.joint_efforts()
+    for _ in range(100):
+        simulation.command_efforts(efforts)
+        simulation.advance(0.01)
+    assert np.array_equal(simulation.joint_efforts(), efforts)
+    simulation.advance(HOLDING_TIME)
+    assert not np.array_equal(simulation.joint_efforts(), efforts)
+    assert np.linalg.norm(simulation.object_position() - position) < LARGEST_MOVE
+
+
+def test_commanded_efforts_end_at_the_motors_limits():
+    simulation = close_on('cube')
+    limits = simulation.hand.effort_limits
+    assert np.array_equal(limits, np.tile([-10.0, 10.0], (9, 1)))
+    simulation.command_efforts(1e3 * np.ones(9))
+    simulation.advance(0.1)
+    assert np.all(simulation.joint_efforts() == 10.0)
