@@ -18,6 +18,7 @@ from grasp_quality.grasp import Grasp
 from grasp_quality.holding import minimum_forces, MinimumForces
 from grasp_quality.measures import evaluate, slip_margin, wrench_map
 from grasp_quality.problem import build_problem, ConicProblem
+from grasp_quality.robust import robust_alpha, RobustAlpha
 from grasp_quality.solution import ConeSolution, PolytopeSolution, Solution, Status, WrenchMap
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
@@ -25,6 +26,7 @@ from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
 __all__ = [
     'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel', 'ForceClosure', 'Grasp',
     'GraspQualityError', 'InvalidContactError', 'InvalidGraspError', 'InvalidTaskError',
-    'MinimumForces', 'PolytopeSolution', 'Solution', 'SolverError', 'SolverTimeoutError', 'Status',
-    'TaskCone', 'TaskEllipsoid', 'TaskPolytope', 'TaskWrench', 'WrenchMap', 'build_problem',
-    'evaluate', 'force_closure', 'minimum_forces', 'slip_margin', 'solve', 'wrench_map']
+    'MinimumForces', 'PolytopeSolution', 'RobustAlpha', 'Solution', 'SolverError',
+    'SolverTimeoutError', 'Status', 'TaskCone', 'TaskEllipsoid', 'TaskPolytope', 'TaskWrench',
+    'WrenchMap', 'build_problem', 'evaluate', 'force_closure', 'minimum_forces', 'robust_alpha',
+    'slip_margin', 'solve', 'wrench_map']
