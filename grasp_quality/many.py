@@ -1,0 +1,158 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Many grasps, many tasks, one call: what a planner that ranks candidates asks.
+
+Every answer carries the same proof as that of ``evaluate``. One problem that nothing can prove
+does not spoil the others: it is marked, with alpha 0 and no forces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+import enum
+
+from grasp_quality.arrays import checked_number, frozen
+from grasp_quality.barrier import with_margin
+from grasp_quality.exceptions import InvalidTaskError, SolverError, SolverTimeoutError
+from grasp_quality.grasp import Grasp
+from grasp_quality.grasp_set import GraspSet
+from grasp_quality.problem import build_problem
+from grasp_quality.solution import Status
+from grasp_quality.solve import solve
+from grasp_quality.task import TaskWrench
+from grasp_quality.time_limit import TimeLimit
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+class Outcome(enum.IntEnum):
+    """Outcome of one of many problems; positive when it is an answer."""
+
+    UNPROVED = -1            # no solver gave an answer that its proof confirms
+    OPTIMAL = 1
+    INFEASIBLE = 2
+    OPTIMAL_NO_INTERIOR = 3  # see Status.OPTIMAL_NO_INTERIOR
+
+
+@dataclass(frozen=True, eq=False)
+class ManySolution:
+    """
+    Answers to many problems; ``...`` stands for the shape that tasks and grasps broadcast to.
+
+    Attributes
+    ----------
+    alpha : (...) array
+        0 on every outcome but the optimal ones.
+    alpha_upper : (...) array
+        Dual bound, as in ``Solution``; inf where unproved.
+    status : (...) int8 array
+        Values of ``Outcome``.
+    forces : (..., k, 4) array [N, N, N, N m] or None
+        On request; k is the largest contact count, and what is not there is zero.
+    handed_over : int
+        How many the batch kernel did not prove itself.
+
+    """
+
+    alpha: NDArray[np.float64]
+    alpha_upper: NDArray[np.float64]
+    status: NDArray[np.int8]
+    forces: NDArray[np.float64] | None
+    handed_over: int
+
+    @property
+    def feasible(self) -> NDArray[np.bool_]:
+        """Which problems have forces: the optimal ones."""
+        return (self.status == Outcome.OPTIMAL) | (self.status == Outcome.OPTIMAL_NO_INTERIOR)
+
+
+def evaluate_many(
+        grasps: GraspSet | Iterable[Grasp], tasks: TaskWrench | ArrayLike,
+        external_wrench: ArrayLike | None = None, barrier_weight: float = 0.0,
+        forces: bool = False, time_limit_s: float | None = None) -> ManySolution:
+    """
+    Tell how much of a task wrench each of many grasps can apply.
+
+    Parameters
+    ----------
+    grasps : GraspSet, or iterable of Grasp
+        M grasps, of equal or of different contact counts.
+    tasks : TaskWrench or array_like [N, N m]
+        (6,): one for all; (M, 6): one each; (T, 1, 6): all tasks with all grasps, for answers
+        (T, M). None of them zero.
+    external_wrench : array_like [N, N m], optional
+        What the world applies besides the fingers; of the same shapes as ``tasks``.
+    barrier_weight : float
+        eps >= 0 of eq. (11), in the unit of alpha.
+    forces : bool
+        Whether to return the contact forces too.
+    time_limit_s : float, optional
+        For all of it [s].
+
+    Returns
+    -------
+    ManySolution
+
+    Raises
+    ------
+    InvalidContactError, InvalidGraspError, InvalidTaskError, SolverTimeoutError
+
+    """
+    limit = TimeLimit.of(time_limit_s)
+    eps = checked_number(barrier_weight, 'barrier_weight', InvalidTaskError, minimum=0.0)
+    grasps = grasps if isinstance(grasps, GraspSet) else GraspSet.of(grasps)
+    wrenches = _wrenches(tasks.wrench if isinstance(tasks, TaskWrench) else tasks, 'tasks')
+    loads = _wrenches(np.zeros(6) if external_wrench is None else external_wrench,
+                      'external_wrench')
+    zero = np.argwhere(~wrenches.any(axis=-1))
+    if len(zero):
+        raise InvalidTaskError(f'tasks must not be zero, but that at {zero[0].tolist()} is')
+    try:
+        shape = np.broadcast_shapes(wrenches.shape[:-1], loads.shape[:-1], (len(grasps),))
+    except ValueError as exc:
+        raise InvalidTaskError(
+            f'tasks {wrenches.shape} and external_wrench {loads.shape} must broadcast against '
+            f'{len(grasps)} grasps: give (6,), ({len(grasps)}, 6) or (T, 1, 6)') from exc
+    if shape[-1] != len(grasps):
+        raise InvalidTaskError(
+            f'{shape[-1]} tasks do not fit one grasp: give (T, 1, 6), or use wrench_map')
+    which = np.broadcast_to(np.arange(len(grasps)), shape).ravel()
+    wrenches = np.broadcast_to(wrenches, (*shape, 6)).reshape(-1, 6)
+    loads = np.broadcast_to(loads, (*shape, 6)).reshape(-1, 6)
+    k = int(np.diff(grasps.starts).max())
+    alpha, upper = np.zeros(len(which)), np.full(len(which), np.inf)
+    status = np.full(len(which), Outcome.UNPROVED, dtype=np.int8)
+    found = np.zeros((len(which), k, 4)) if forces else None
+    for i, g in enumerate(which):
+        problem = build_problem(grasps[g], TaskWrench(wrenches[i]), loads[i])
+        try:
+            solution = solve(problem, limit)
+            if eps > 0.0 and solution.feasible:
+                solution = with_margin(problem, solution, eps, limit)
+        except SolverTimeoutError:
+            raise
+        except SolverError:
+            continue
+        alpha[i], upper[i] = solution.alpha, solution.alpha_upper
+        status[i] = Outcome[solution.status.name]
+        if found is not None and solution.status is not Status.INFEASIBLE:
+            found[i, :len(solution.forces)] = solution.forces
+    return ManySolution(
+        frozen(alpha.reshape(shape)), frozen(upper.reshape(shape)),
+        frozen(status.reshape(shape)),
+        None if found is None else frozen(found.reshape(*shape, k, 4)), len(which))
+
+
+def _wrenches(value: ArrayLike, name: str) -> NDArray[np.float64]:
+    try:
+        wrenches = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError) as exc:
+        raise InvalidTaskError(f'{name} must be wrenches (..., 6), got {value!r}') from exc
+    if not wrenches.ndim or wrenches.shape[-1] != 6:
+        raise InvalidTaskError(f'{name} must have shape (..., 6), got {wrenches.shape}')
+    if not np.isfinite(wrenches).all():
+        row = np.argwhere(~np.isfinite(wrenches))[0]
+        raise InvalidTaskError(f'{name} must be finite, but entry {row.tolist()} is not')
+    return wrenches
