@@ -11,6 +11,7 @@ if [ -f "$grasp_quality_root/install/setup.bash" ]; then
     . "$grasp_quality_root/.venv/bin/activate"
     . "$grasp_quality_root/install/setup.${ZSH_VERSION:+z}${BASH_VERSION:+ba}sh"
     export GRASP_QUALITY_DCLAW_DIR="$grasp_quality_root/.venv/share/dclaw"
+    export PATH="$grasp_quality_root/install/grasp_quality/lib/grasp_quality:$PATH"
     unset grasp_quality_root
 else
     echo "error: nothing is built in $grasp_quality_root: run make setup first" >&2

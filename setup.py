@@ -1,6 +1,6 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""Install the package grasp_quality: core library, message adapters and node."""
+"""Install the package grasp_quality: core library, message adapters, node, command line."""
 
 from glob import glob
 
@@ -11,7 +11,7 @@ NAME = 'grasp_quality'
 setup(
     name=NAME,
     version='0.1.0',
-    packages=['grasp_quality', 'msg_adapters'],
+    packages=['grasp_quality', 'grasp_quality_cli', 'msg_adapters'],
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
@@ -19,12 +19,16 @@ setup(
         (f'share/{NAME}/launch', sorted(glob('launch/*.launch.py'))),
     ],
     install_requires=['setuptools', 'numpy', 'scipy', 'numba', 'clarabel'],
-    extras_require={'reference': ['cvxpy'], 'test': ['pytest', 'hypothesis', 'cvxpy']},
+    extras_require={
+        'cli': ['matplotlib', 'pyarrow', 'pyyaml', 'rich', 'rosbags', 'typer'],
+        'reference': ['cvxpy'], 'test': ['pytest', 'hypothesis', 'cvxpy']},
     zip_safe=True,
     author='The grasp_quality authors',
     maintainer='The grasp_quality authors',
     maintainer_email='grasp_quality@example.com',
     description='Task-oriented grasp quality from live contacts, with proof and contact forces.',
     license='Apache-2.0',
-    entry_points={'console_scripts': ['grasp_quality_node = grasp_quality.node:main']},
+    entry_points={'console_scripts': [
+        'grasp_quality_node = grasp_quality.node:main',
+        'grasp-quality = grasp_quality_cli.main:main']},
 )

@@ -7,7 +7,7 @@
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 code=0
 folders=()
-for folder in grasp_quality msg_adapters launch test examples benchmarks scripts \
+for folder in grasp_quality grasp_quality_cli msg_adapters launch test examples benchmarks scripts \
     grasp_quality_msgs grasp_quality_hand; do
     [ -d "$folder" ] && folders+=("$folder")
 done

@@ -1,0 +1,100 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""Answers as tables for people, in words and with units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from grasp_quality import Status, TaskCone, TaskEllipsoid, TaskPolytope
+from grasp_quality_cli.answer_rows import Row
+from grasp_quality_cli.grasp_file import Task
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.table import Table
+
+REASONS = {'slip': 'by slip: more friction or a higher cap there would help most',
+           'cap': 'by its cap: a higher cap there would help most', '': ''}
+DUST = 1e-6  # share of the largest force that a proof does not tell from zero
+NO_MARGIN = 0.001  # of the friction cone, below which forces stand on its edge
+
+
+def print_answer(console: Console, row: Row, task: Task) -> None:
+    """Print one row of answer_rows as tables."""
+    if 'answers' not in row:
+        _print_one(console, row)
+        return
+    for i, one in enumerate(row['answers']):
+        console.print(f'[bold]Wrench {i + 1}: {numbers(_wrenches_of(task)[i])}[/bold]')
+        _print_one(console, one)
+    facts = Table.grid(padding=(0, 2))
+    for name, value in _together(row):
+        facts.add_row(name, value)
+    console.print('[bold]All together[/bold]', facts, sep='\n')
+
+
+def _wrenches_of(task: Task) -> NDArray[np.float64]:
+    if isinstance(task, TaskPolytope):
+        return task.wrenches
+    if isinstance(task, TaskEllipsoid):
+        return np.concatenate([task.axes, -task.axes])
+    return np.array([task.axis if isinstance(task, TaskCone) else task.wrench])
+
+
+def _together(row: Row) -> Iterator[tuple[str, str]]:
+    yield 'quality', f'{row["quality"]:.4f}, the weighted sum of the alphas'
+    yield 'alpha_min', f'{row["alpha_min"]:.4f}, the smallest of them'
+    if row['parallelotope_scale'] is not None:
+        yield ('parallelotope_scale', f'{row["parallelotope_scale"]:.4f} of the box that the '
+               'alphas span is held in all its corners')
+    if row['guaranteed_scale'] is not None:
+        yield 'guaranteed_scale', f'{row["guaranteed_scale"]:.4f} of the ellipsoid is held'
+
+
+def _print_one(console: Console, row: Row) -> None:
+    if row['status'] == Status.INFEASIBLE.name:
+        console.print('[bold red]INFEASIBLE[/bold red]: no contact forces inside the friction '
+                      'cones and the caps balance the load together with any share of the task')
+        return
+    facts = Table.grid(padding=(0, 2))
+    for name, value in _facts(row):
+        facts.add_row(name, value)
+    table = Table(header_style='bold')
+    for name in ('contact', 't1 [N]', 't2 [N]', 'normal [N]', 'moment [N m]', 'cone used',
+                 'cap used'):
+        table.add_column(name, justify='left' if name == 'contact' else 'right', no_wrap=True)
+    forces = np.array([contact['force'] for contact in row['forces']])
+    for contact, force in zip(row['forces'], rounded(forces)):
+        table.add_row(contact['name'], *(f'{value:.4g}' for value in force),
+                      f'{contact["cone_usage"]:.1%}', f'{contact["cap_usage"]:.1%}')
+    console.print(facts, table, sep='\n')
+
+
+def _facts(row: Row) -> Iterator[tuple[str, str]]:
+    yield 'status', row['status']
+    yield 'alpha', f'{row["alpha"]:.6g} times the task (proved: at most {row["alpha_upper"]:.6g})'
+    if not row['holdable']:
+        yield 'alpha_lower', f'{row["alpha_lower"]:.6g}: below it the load cannot be held'
+    if row['pinned']:
+        yield 'pinned', 'alpha is fixed by the load: the grasp cannot produce this task at all'
+    if 'alpha_axis' in row:
+        yield 'alpha_axis', f'{row["alpha_axis"]:.6g} along the bare axis of the cone'
+    if row.get('alpha_worst') is not None:
+        yield 'alpha_worst', f'{row["alpha_worst"]:.6g} in the worst sampled direction of it'
+    yield 'wrench', numbers(row['wrench']) + ' [N, N m]'
+    edge = ': the forces stand on the edge of slipping, see --barrier-weight'
+    yield ('friction margin', f'{row["friction_margin"]:.1%}'
+           + (edge if row['friction_margin'] < NO_MARGIN else ''))
+    if row['limiting_contact']:
+        yield 'limited by', f'{row["limiting_contact"]}, {REASONS[row["limiting_reason"]]}'
+
+
+def numbers(values: NDArray[np.float64] | list[float]) -> str:
+    """Write numbers for people, without the dust of the solver."""
+    return ' '.join(f'{value:.4g}' for value in rounded(np.asarray(values)))
+
+
+def rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Set what is below DUST of the largest to zero."""
+    return np.where(np.abs(values) <= DUST * np.abs(values).max(initial=0.0), 0.0, values)

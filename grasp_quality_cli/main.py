@@ -1,0 +1,54 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""The program ``grasp-quality``: its commands, and errors as one line and an exit code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import sys
+
+from grasp_quality import GraspQualityError, SolverError
+from grasp_quality_cli.evaluate import evaluate_grasp
+from grasp_quality_cli.output import EPILOG, NOT_SOLVED, WRONG_INPUT
+import typer
+
+HELP = """
+How large a task wrench can a grasp apply, and with which contact forces?
+
+Grasps stand in YAML files (docs/grasp_files.md). To begin:
+
+grasp-quality evaluate examples/pinch.yaml --task "0 0 2 0 0 0"
+"""
+
+app = typer.Typer(
+    name='grasp-quality', no_args_is_help=True, pretty_exceptions_enable=False,
+    add_completion=False, help=HELP, epilog=EPILOG,
+    context_settings={'help_option_names': ['-h', '--help']})
+app.command('evaluate', epilog=EPILOG)(evaluate_grasp)
+
+
+@app.callback()
+def options() -> None:
+    """Take no options before the command; that there is this makes all commands named."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the program; return its exit code."""
+    try:
+        app(args=arguments)
+    except SystemExit as exc:  # how Typer ends
+        return exc.code if isinstance(exc.code, int) else int(exc.code is not None)
+    except SolverError as exc:
+        return _failed(exc, NOT_SOLVED)
+    except (GraspQualityError, OSError) as exc:
+        return _failed(exc, WRONG_INPUT)
+    return 0
+
+
+def _failed(exc: Exception, code: int) -> int:
+    print(f'error: {exc}', file=sys.stderr)
+    return code
+
+
+if __name__ == '__main__':
+    sys.exit(main())

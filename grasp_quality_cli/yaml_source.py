@@ -1,0 +1,151 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+YAML with its line numbers: every value knows its file, line and name, and complains with them.
+
+Loaded as plain nodes (no tags are obeyed, no objects are built), so that a file from elsewhere can
+do no more than be wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import math
+from pathlib import Path
+from typing import NoReturn
+
+from grasp_quality.exceptions import GraspQualityError
+import numpy as np
+from numpy.typing import NDArray
+import yaml  # type: ignore[import-untyped]
+
+
+class FileError(GraspQualityError, ValueError):
+    """A file breaks a rule; the text names file, line, field, rule and value."""
+
+
+@dataclass(frozen=True)
+class YamlItem:
+    """
+    One value of a YAML file.
+
+    Attributes
+    ----------
+    file : str
+        As the user named it.
+    name : str
+        Where it stands, such as contacts[1].friction.
+    node : yaml.Node
+
+    """
+
+    file: str
+    name: str
+    node: yaml.Node
+
+    def fail(self, rule: str) -> NoReturn:
+        """Raise the FileError of this value: it must be so, but is not."""
+        raise FileError(f'{self.file}:{self.line}: {self.name} {rule}')
+
+    @property
+    def line(self) -> int:
+        """Line in the file, from 1."""
+        return int(self.node.start_mark.line) + 1
+
+    def fields(self, allowed: Sequence[str], required: Sequence[str] = ()) -> dict[str, YamlItem]:
+        """Read a mapping whose keys are among ``allowed``."""
+        found = self.named_items()
+        for key, item in found.items():
+            if key not in allowed:
+                item.fail(f'is not known here; known are {", ".join(allowed)}')
+        for key in required:
+            if key not in found:
+                self.fail(f'must have the field {key}; known are {", ".join(allowed)}')
+        return found
+
+    def named_items(self) -> dict[str, YamlItem]:
+        """Read a mapping with keys of the user's choice."""
+        if not isinstance(self.node, yaml.MappingNode):
+            self.fail(f'must be a mapping (name: value), got {self._got()}')
+        found: dict[str, YamlItem] = {}
+        for key, value in self.node.value:
+            item = YamlItem(self.file, self._below(str(key.value)), value)
+            if str(key.value) in found:
+                item.fail('is given twice')
+            found[str(key.value)] = item
+        return found
+
+    def _below(self, key: str) -> str:
+        return key if self.name == 'file' else f'{self.name}.{key}'
+
+    def items(self) -> list[YamlItem]:
+        """Read a list."""
+        if not isinstance(self.node, yaml.SequenceNode):
+            self.fail(f'must be a list, got {self._got()}')
+        return [YamlItem(self.file, f'{self.name}[{i}]', node)
+                for i, node in enumerate(self.node.value)]
+
+    def text(self) -> str:
+        """Read a string."""
+        if not isinstance(self.node, yaml.ScalarNode):
+            self.fail(f'must be a single value, got {self._got()}')
+        return str(self.node.value)
+
+    def number(self) -> float:
+        """Read a finite number; 1e-3 is one, unlike in YAML 1.1."""
+        text = self.text()
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not math.isfinite(value):
+            self.fail(f'must be a finite number, got {text!r}')
+        return value
+
+    def numbers(self, count: int, meaning: str) -> NDArray[np.float64]:
+        """Read a list of so many numbers; ``meaning`` says which, such as fx fy fz."""
+        items = self.items()
+        if len(items) != count:
+            self.fail(f'must hold {count} numbers ({meaning}), got {len(items)}')
+        return np.array([item.number() for item in items])
+
+    def choice(self, choices: Sequence[str]) -> str:
+        """Read one of several words."""
+        text = self.text()
+        if text not in choices:
+            self.fail(f'must be one of {", ".join(choices)}, got {text!r}')
+        return text
+
+    def _got(self) -> str:
+        if isinstance(self.node, yaml.ScalarNode):
+            return repr(self.node.value) if self.node.value else 'nothing'
+        return 'a list' if isinstance(self.node, yaml.SequenceNode) else 'a mapping'
+
+
+def load_yaml(path: Path | str) -> YamlItem:
+    """
+    Load the one document of a YAML file.
+
+    Raises
+    ------
+    FileError
+        When it cannot be read, is not YAML, or is empty.
+
+    """
+    try:
+        text = Path(path).read_text(encoding='utf-8')
+        node = yaml.compose(text, Loader=yaml.SafeLoader)
+    except OSError as exc:
+        raise FileError(f'{path}: cannot be read: {exc.strerror}') from exc
+    except UnicodeDecodeError as exc:
+        raise FileError(f'{path}: is not a text file in UTF-8: {exc}') from exc
+    except yaml.MarkedYAMLError as exc:
+        mark = exc.problem_mark or exc.context_mark
+        where = f'{path}:{mark.line + 1}' if mark else str(path)
+        raise FileError(f'{where}: is not YAML: {exc.problem or exc.context}') from exc
+    except yaml.YAMLError as exc:
+        raise FileError(f'{path}: is not YAML: {exc}') from exc
+    if node is None:
+        raise FileError(f'{path}:1: is empty')
+    return YamlItem(str(path), 'file', node)
