@@ -18,6 +18,7 @@ from grasp_quality.grasp import Grasp
 from grasp_quality.grasp_set import GraspSet
 from grasp_quality.holding import minimum_forces, MinimumForces
 from grasp_quality.many import evaluate_many, ManySolution, Outcome
+from grasp_quality.margin_forces import hold_forces, HoldForces
 from grasp_quality.measures import evaluate, slip_margin, wrench_map
 from grasp_quality.problem import build_problem, ConicProblem
 from grasp_quality.robust import robust_alpha, RobustAlpha
@@ -27,9 +28,9 @@ from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
 
 __all__ = [
     'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel', 'ForceClosure', 'Grasp',
-    'GraspQualityError', 'GraspSet', 'InvalidContactError', 'InvalidGraspError',
+    'GraspQualityError', 'GraspSet', 'HoldForces', 'InvalidContactError', 'InvalidGraspError',
     'InvalidTaskError', 'ManySolution', 'MinimumForces', 'Outcome', 'PolytopeSolution',
     'RobustAlpha', 'Solution', 'SolverError', 'SolverTimeoutError', 'Status', 'TaskCone',
     'TaskEllipsoid', 'TaskPolytope', 'TaskWrench', 'WrenchMap', 'build_problem', 'evaluate',
-    'evaluate_many', 'force_closure', 'minimum_forces', 'robust_alpha', 'slip_margin', 'solve',
-    'wrench_map']
+    'evaluate_many', 'force_closure', 'hold_forces', 'minimum_forces', 'robust_alpha',
+    'slip_margin', 'solve', 'wrench_map']

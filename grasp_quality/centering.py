@@ -12,7 +12,8 @@ rows x rows a step. Clarabel states the same with exponential cones, but an obje
 proved to 1e-9 fixes a smooth optimum only to the square root of that (docs/decisions.md).
 """
 
-from grasp_quality.cone_algebra import divide, is_interior, largest_step, product, Scaling
+from grasp_quality.cone_algebra import (
+    determinant, divide, is_interior, largest_step, product, Scaling)
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve, LinAlgError
 
@@ -26,7 +27,7 @@ RANK_TOLERANCE = 1e-9
 
 
 @np.errstate(over='ignore', invalid='ignore', divide='ignore')  # where there is no centre
-def weighted_center(E, e, c, weights):
+def weighted_center(E, e, c, weights, start=None):
     """
     Find the weighted centre.
 
@@ -40,6 +41,8 @@ def weighted_center(E, e, c, weights):
         Objective, maximised: c . u + sum_i w_i log det u_i.
     weights : (blocks,) array
         w > 0 of each cone, for log det; half of what a half line's own logarithm would have.
+    start : (u, x), optional
+        Centre of a problem close by with the same weights, to begin from.
 
     Returns
     -------
@@ -56,11 +59,16 @@ def weighted_center(E, e, c, weights):
     e = (range_of_E.T @ e) / singular[kept]
     rows = len(e)
     Et = E_flat.T.reshape(blocks, d, rows)
-    u = np.zeros((blocks, d))
-    u[:, 0] = 0.5
-    z = np.zeros((blocks, d))
-    z[:, 0] = 1.0
-    x = np.zeros(rows)
+    if start is None:
+        u = np.zeros((blocks, d))
+        u[:, 0] = 0.5
+        z = np.zeros((blocks, d))
+        z[:, 0] = 1.0
+        x = np.zeros(rows)
+    else:
+        u, x = start[0], singular[kept] * (range_of_E.T @ start[1])
+        z = (2.0 * weights / determinant(u))[:, None] * u
+        z[:, 1:] *= -1.0
     best, best_distance, step = None, np.inf, 0.0
     for _ in range(MAX_ITERATIONS):
         primal = e - E_flat @ u.ravel()

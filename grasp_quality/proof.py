@@ -77,10 +77,14 @@ class Proof:
 
     @property
     def holds(self):
-        """Whether gap, residual, cone usage and use of the bound are all within tolerance."""
+        """Whether the forces are admissible and the gap is within tolerance."""
+        return bool(self.gap <= GAP_TOLERANCE and self.admissible)
+
+    @property
+    def admissible(self):
+        """Whether residual, cone usage and use of the bound are within tolerance."""
         return bool(
-            self.gap <= GAP_TOLERANCE
-            and self.residual <= RESIDUAL_TOLERANCE
+            self.residual <= RESIDUAL_TOLERANCE
             and self.imbalance <= IMBALANCE_TOLERANCE
             and self.usage <= 1.0 + USAGE_TOLERANCE
             and self.bound_usage <= 1.0 + USAGE_TOLERANCE)
