@@ -12,16 +12,14 @@ the older of the two says. Task and load hold until they are replaced.
 from dataclasses import dataclass
 import time
 
-from builtin_interfaces.msg import Time
-from geometry_msgs.msg import WrenchStamped
 from grasp_quality.grasp import Grasp
 from grasp_quality.measures import slip_margin
-from grasp_quality_msgs.srv import SetTask
 from msg_adapters.contacts import contacts_from_array, contacts_from_poses
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
 from msg_adapters.frames import object_frame_of, transform_to
 from msg_adapters.measured import local_force
 from msg_adapters.stamps import stamp_ns
+from msg_adapters.tasks import HeldLoad, HeldTask, NoFrame
 from msg_adapters.wrenches import to_wrench
 import numpy as np
 
@@ -51,20 +49,27 @@ class Scene:
     grasp: Grasp
     forces: tuple
     frame: str
-    stamp: Time
+    stamp: object
 
 
 class Inputs:
-    """Newest messages; ``settings()`` returns the current Settings, ``now_ns()`` the ROS time."""
+    """
+    Newest messages, of ROS or of a recorded bag: only their fields are read.
 
-    def __init__(self, settings, now_ns):
+    ``settings()`` returns the current Settings, ``now_ns()`` the ROS time and ``steady_ns()`` that
+    of the steady clock.
+
+    """
+
+    def __init__(self, settings, now_ns, steady_ns=time.monotonic_ns):
         self._settings = settings
         self._now_ns = now_ns
+        self._steady_ns = steady_ns
         self._contacts = None      # (message, arrival [ns])
         self._read = (None, None)  # (contact message, settings, Grasp, object frame)
         self._wrenches = {}        # contact name: (message, arrival [ns])
-        self.task = None           # SetTask.Request
-        self.load = None           # WrenchStamped
+        self.task = None           # SetTask.Request or HeldTask
+        self.load = None           # HeldLoad
         self.tf_buffer = None      # tf2_ros.Buffer where tf2 is installed
         self.problems = ()         # what was wrong with measured wrenches, last time
 
@@ -76,7 +81,7 @@ class Inputs:
     def store_contacts(self, message):
         """Keep a PoseArray or ContactArray, unless one with a later stamp is still fresh."""
         if not self._is_late(message):
-            self._contacts = (message, time.monotonic_ns())
+            self._contacts = (message, self._steady_ns())
 
     def _is_late(self, message):
         if self._contacts is None or not stamp_ns(message.header.stamp):
@@ -89,27 +94,25 @@ class Inputs:
 
     def store_wrench(self, name, message):
         """Keep the measured WrenchStamped of a contact."""
-        self._wrenches[name] = (message, time.monotonic_ns())
+        self._wrenches[name] = (message, self._steady_ns())
 
     def set_task(self, request):
         """Keep a SetTask request: its task, and its external wrench as the load."""
         self.task = request
-        self.load = WrenchStamped(header=request.header, wrench=request.external_wrench)
+        self.load = HeldLoad(request.external_wrench, request.header)
 
     def store_task_wrench(self, message):
         """Keep a WrenchStamped as the task of the live loop; the load stays."""
-        self.task = SetTask.Request(
-            header=message.header, kind=SetTask.Request.WRENCH, task_wrench=message.wrench)
+        self.task = HeldTask(message.wrench, message.header)
 
     def store_load(self, message):
         """Keep a WrenchStamped as the external wrench of the live loop."""
-        self.load = message
+        self.load = HeldLoad(message.wrench, message.header)
 
     def set_task_wrench(self, wrench):
         """Keep fx fy fz tx ty tz in the object frame as the task; empty leaves the task alone."""
         if len(wrench):
-            self.task = SetTask.Request(
-                kind=SetTask.Request.WRENCH, task_wrench=to_wrench(wrench))
+            self.task = HeldTask(to_wrench(wrench), NoFrame())
 
     def age_s(self):
         """
@@ -201,7 +204,7 @@ class Inputs:
         return forces
 
     def _ages(self, message, arrival):
-        since_arrival = (time.monotonic_ns() - arrival) * 1e-9
+        since_arrival = (self._steady_ns() - arrival) * 1e-9
         stamp = stamp_ns(message.header.stamp)
         return since_arrival, (self._now_ns() - stamp) * 1e-9 if stamp else since_arrival
 

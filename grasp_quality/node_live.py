@@ -10,9 +10,9 @@ at once. Errors of any kind end in a published code, never in an exception.
 
 import time
 
+from grasp_quality.governing import governing
 from grasp_quality.measures import evaluate
 from grasp_quality.node_inputs import measured_margin
-from grasp_quality.task import TaskCone, TaskPolytope
 from grasp_quality_msgs.msg import GraspQuality
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
 from msg_adapters.results import error_result, status_result
@@ -64,7 +64,7 @@ class LiveLoop:
         limit = min(settings.solver_time_limit, settings.max_contact_age)
         solution = evaluate(scene.grasp, task, load, settings.barrier_weight, limit)
         solve_time = time.perf_counter() - started
-        solution, wrench = _governing(task, solution)
+        solution, wrench = governing(task, solution)
         margin = measured_margin(scene)
         quality = GraspQuality(
             header=Header(stamp=scene.stamp, frame_id=scene.frame),
@@ -90,15 +90,3 @@ class LiveLoop:
             return task, None
         return task, load_from(
             inputs.load.wrench, inputs.transform(inputs.load.header, scene.frame, scene.stamp))
-
-
-def _governing(task, solution):
-    """Solution that forces and alpha are taken from, and the task wrench that alpha multiplies."""
-    if isinstance(task, TaskPolytope):
-        weakest = min(range(len(solution.solutions)), key=lambda i: (
-            solution.solutions[i].feasible, solution.solutions[i].alpha))
-        return solution.solutions[weakest], task.wrenches[weakest]
-    if isinstance(task, TaskCone):
-        reached = solution.alpha > 0.0
-        return solution, solution.wrench / solution.alpha if reached else task.axis
-    return solution, task.wrench

@@ -13,6 +13,7 @@ from geometry_msgs.msg import WrenchStamped
 from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode
 from msg_adapters import qos
 from msg_adapters.forces import contact_frame_wrench, force_array
+from msg_adapters.topic_names import names_a_topic, TOPIC_RULE
 from rclpy.duration import Duration
 from rclpy.event_handler import PublisherEventCallbacks
 from std_msgs.msg import Float64, Header
@@ -86,9 +87,9 @@ class Outputs:
             self._node.get_logger().warning(
                 f'{MAX_WRENCH_TOPICS} contact names seen: further ones get no topic '
                 '~/optimal_wrenches/<name>, their forces are on ~/contact_forces')
-        if not qos.names_a_topic(name):
+        if not names_a_topic(name):
             self._node.get_logger().warning(
-                f'no topic ~/optimal_wrenches/{name}: {qos.TOPIC_RULE}; its forces are on '
+                f'no topic ~/optimal_wrenches/{name}: {TOPIC_RULE}; its forces are on '
                 '~/contact_forces')
             return None
         publisher = self._publisher(WrenchStamped, f'~/optimal_wrenches/{name}')

@@ -5,24 +5,32 @@ Parameters of the node: one table of descriptors, one frozen dataclass of checke
 
 A new parameter is a row of ``TABLE`` and a field of ``Settings``; a rule between parameters goes
 to ``Settings.__post_init__``. Values are checked in the on-set callback and swapped in the
-post-set callback, so that a rejected set changes nothing.
+post-set callback, so that a rejected set changes nothing. Bags are replayed with the same Settings
+and without ROS, which is why only the functions that talk to a node import it.
 """
 
 from dataclasses import dataclass, fields
+import enum
 
 from grasp_quality.bounds import BOUNDS
 from grasp_quality.contact import ContactModel
 from grasp_quality.task import TaskWrench
-from msg_adapters import qos
 from msg_adapters.contacts import ContactDefaults
-from rcl_interfaces.msg import (
-    FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult)
-from rclpy.exceptions import ParameterUninitializedException
-from rclpy.parameter import Parameter
+from msg_adapters.topic_names import names_a_topic, TOPIC_RULE
 
 SOURCES = ('pose_array', 'contact_array')
 LARGE = 1e6
-Type = Parameter.Type
+
+
+class Type(enum.IntEnum):
+    """Types of parameters, by the numbers of rcl_interfaces/ParameterType."""
+
+    BOOL = 1
+    INTEGER = 2
+    DOUBLE = 3
+    STRING = 4
+    DOUBLE_ARRAY = 8
+    STRING_ARRAY = 9
 
 
 @dataclass(frozen=True)
@@ -66,8 +74,8 @@ class Settings:
             raise ValueError(
                 f'contact_names must be unique and not empty, got {list(self.contact_names)}')
         for name in self.contact_names:
-            if not qos.names_a_topic(name):
-                raise ValueError(f'contact_names must make topics: {qos.TOPIC_RULE}, got {name!r}')
+            if not names_a_topic(name):
+                raise ValueError(f'contact_names must make topics: {TOPIC_RULE}, got {name!r}')
         if self.min_contact_force > 0.0 and not self.contact_names:
             raise ValueError(
                 'min_contact_force above 0 needs contact_names: they name the topics '
@@ -140,6 +148,8 @@ def declare(node):
         When an override breaks a rule.
 
     """
+    from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+    from rclpy.parameter import Parameter
     for name, (kind, description, limits, read_only) in TABLE.items():
         descriptor = ParameterDescriptor(description=description, read_only=read_only)
         if kind is Type.DOUBLE:
@@ -149,16 +159,18 @@ def declare(node):
             descriptor.integer_range = [IntegerRange(from_value=limits[0], to_value=limits[1])]
         default = getattr(Settings, name)
         # a list without elements has no type of its own: such a parameter starts not set
-        node.declare_parameter(name, kind if default == () else default, descriptor)
+        node.declare_parameter(
+            name, Parameter.Type(kind) if default == () else default, descriptor)
     return Settings(**{f.name: _value(node, f.name) for f in fields(Settings)})
 
 
 def _value(node, name):
+    from rclpy.exceptions import ParameterUninitializedException
     try:
         value = node.get_parameter(name).value
     except ParameterUninitializedException:
         return getattr(Settings, name)
-    return tuple(value) if TABLE[name][0].value >= Type.BYTE_ARRAY.value else value
+    return tuple(value) if TABLE[name][0] >= Type.DOUBLE_ARRAY else value
 
 
 def changed(settings, parameters):
@@ -167,13 +179,14 @@ def changed(settings, parameters):
     for parameter in parameters:
         if parameter.name in TABLE:
             value = parameter.value
-            is_array = TABLE[parameter.name][0].value >= Type.BYTE_ARRAY.value
+            is_array = TABLE[parameter.name][0] >= Type.DOUBLE_ARRAY
             changes[parameter.name] = tuple(value or ()) if is_array else value
     return Settings(**{**{f.name: getattr(settings, f.name) for f in fields(Settings)}, **changes})
 
 
 def check(settings, parameters):
     """Answer an on-set callback: whether these parameters would be valid together."""
+    from rcl_interfaces.msg import SetParametersResult
     try:
         changed(settings, parameters)
     except (ValueError, TypeError) as exc:

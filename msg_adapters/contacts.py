@@ -12,14 +12,13 @@ from dataclasses import dataclass
 from grasp_quality.contact import ContactModel
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidContactError
-from grasp_quality_msgs.msg import Contact as ContactMsg
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.poses import pose_arrays
 import numpy as np
 
-MODELS = {ContactMsg.MODEL_FPC: ContactModel.FPC, ContactMsg.MODEL_PCWF: ContactModel.PCWF,
-          ContactMsg.MODEL_SFCE: ContactModel.SFCE}
+MODEL_DEFAULT = 0  # these are the constants of Contact.msg
+MODELS = {1: ContactModel.FPC, 2: ContactModel.PCWF, 3: ContactModel.SFCE}
 
 
 @dataclass(frozen=True)
@@ -123,7 +122,7 @@ def _contact_set(poses, transform, **fields):
 
 
 def _model(code, defaults, field):
-    if code == ContactMsg.MODEL_DEFAULT:
+    if code == MODEL_DEFAULT:
         return defaults.model
     if code not in MODELS:
         raise InvalidMessageError(

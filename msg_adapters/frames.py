@@ -15,7 +15,6 @@ from msg_adapters.errors import InvalidMessageError, TransformError
 from msg_adapters.number_checks import checked_numbers
 from msg_adapters.poses import rotation_matrix
 import numpy as np
-from rclpy.time import Time
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +83,7 @@ def transform_to(target, source, buffer, stamp):
         raise TransformError(
             f'frame {source!r} is not the object frame {target!r}, and tf2 is not installed here: '
             f'send the message in {target!r}, or install tf2_ros')
+    from rclpy.time import Time  # where there is a buffer, there is ROS
     try:
         found = buffer.lookup_transform(target, source, Time.from_msg(stamp)).transform
         t = found.translation

@@ -1,25 +1,13 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 """
-QoS profiles by what they are for, and which contact names can name a topic.
+QoS profiles by what they are for.
 
 Nothing is ever latched: effort controllers hold their last command for ever, so an old force must
 not be replayed to a late joiner.
 """
 
-import re
-
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
-
-
-TOPIC_RULE = ('names must be letters, digits and single underscores, begin with a letter, and '
-              'have at most 64 characters')
-TOPIC_NAME = re.compile('[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?')
-
-
-def names_a_topic(name):
-    """Tell whether a contact's name can stand in a topic."""
-    return len(name) <= 64 and TOPIC_NAME.fullmatch(name) is not None
 
 
 def newest_sample():

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Times: builtin_interfaces messages to and from seconds and nanoseconds."""
 
-from builtin_interfaces.msg import Duration
-
 NANOSECONDS = 1_000_000_000
 
 
@@ -14,6 +12,7 @@ def stamp_ns(stamp):
 
 def to_duration(seconds):
     """Return a Duration message of a finite number of seconds, to the nanosecond."""
+    from builtin_interfaces.msg import Duration
     whole, nanoseconds = divmod(round(seconds * NANOSECONDS), NANOSECONDS)
     return Duration(sec=int(whole), nanosec=int(nanoseconds))
 

@@ -2,12 +2,47 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tasks and loads: service requests and parameters to core tasks, in the object frame."""
 
+from dataclasses import dataclass
+
 from grasp_quality.task import TaskCone, TaskPolytope, TaskWrench
-from grasp_quality_msgs.srv import SetTask
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.wrenches import wrench_array
 import numpy as np
+
+WRENCH, CONE, POLYTOPE = 1, 2, 3  # these are the kinds of SetTask.srv
+
+
+@dataclass(frozen=True)
+class HeldTask:
+    """
+    A task wrench that is held like a SetTask request of kind WRENCH.
+
+    Attributes
+    ----------
+    task_wrench : geometry_msgs.msg.Wrench
+    header : std_msgs.msg.Header
+
+    """
+
+    task_wrench: object
+    header: object
+    kind: int = WRENCH
+
+
+@dataclass(frozen=True)
+class HeldLoad:
+    """An external wrench that is held, as a WrenchStamped."""
+
+    wrench: object
+    header: object
+
+
+@dataclass(frozen=True)
+class NoFrame:
+    """Header of what stands in the object frame."""
+
+    frame_id: str = ''
 
 
 def load_from(message, transform, name='external_wrench'):
@@ -60,11 +95,11 @@ def live_task(request, transform, limit):
     The loop publishes neither the cone's surface nor the parallelotope, so both are left out.
 
     """
-    if request.kind == SetTask.Request.WRENCH:
+    if request.kind == WRENCH:
         return wrench_task(request.task_wrench, transform)
-    if request.kind == SetTask.Request.CONE:
+    if request.kind == CONE:
         return cone_task(request, transform, surface_samples=0)
-    if request.kind == SetTask.Request.POLYTOPE:
+    if request.kind == POLYTOPE:
         return polytope_task(request, transform, limit, parallelotope=False)
     raise InvalidMessageError(
         f'kind must be 1 (WRENCH), 2 (CONE) or 3 (POLYTOPE), got {request.kind}')

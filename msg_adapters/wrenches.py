@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wrenches, points and vectors: message parts to and from arrays, force before torque, SI."""
 
-from geometry_msgs.msg import Wrench
 from msg_adapters.number_checks import checked_numbers
 import numpy as np
 
@@ -36,12 +35,17 @@ def wrench_array(message, name):
 def to_wrench(array, message=None):
     """Return a geometry_msgs/Wrench of fx fy fz tx ty tz (6,) [N, N m]; fill message if given."""
     # filling a default message in place takes half the time of giving it new parts
-    message = Wrench() if message is None else message
+    message = _new_wrench() if message is None else message
     fx, fy, fz, tx, ty, tz = map(float, array)
     force, torque = message.force, message.torque
     force.x, force.y, force.z = fx, fy, fz
     torque.x, torque.y, torque.z = tx, ty, tz
     return message
+
+
+def _new_wrench():
+    from geometry_msgs.msg import Wrench
+    return Wrench()
 
 
 def fill_xyz(message, array):
