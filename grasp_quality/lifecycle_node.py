@@ -15,6 +15,7 @@ from grasp_quality import node_parameters as parameters
 from grasp_quality.node_diagnostics import Monitor, PERIOD_S
 from grasp_quality.node_inputs import Inputs
 from grasp_quality.node_live import LiveLoop
+from grasp_quality.node_markers import Display
 from grasp_quality.node_outputs import Outputs
 from grasp_quality.node_services import Services
 from grasp_quality.warm_up import warm_up
@@ -25,6 +26,7 @@ from msg_adapters.results import error_result
 from rclpy.clock import Clock, ClockType
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+from std_msgs.msg import Header
 
 WATCH_SHARE = 0.25  # of max_contact_age between two looks of the watchdog
 FLUSH_S = 0.5       # longest wait for subscribers to have the last word
@@ -52,8 +54,9 @@ class GraspQualityNode(LifecycleNode):
         self._listen_to_transforms()
         self._outputs = Outputs(self)
         self._outputs.declare_wrenches(self.settings.contact_names)
+        self._display = Display(self, current)
         self._live = LiveLoop(
-            self._inputs, self._outputs, current, self._monitor,
+            self._inputs, self._outputs, current, self._monitor, self._display,
             lambda: self.get_clock().now().to_msg())
         self._handlers = Services(self, self._inputs, current, lambda: self.active)
         self._subscribe()
@@ -61,6 +64,8 @@ class GraspQualityNode(LifecycleNode):
         self._watchdog = self.create_timer(
             WATCH_SHARE * self.settings.max_contact_age, self._guarded(self._on_watch),
             clock=steady)
+        self.create_timer(
+            1.0 / self.settings.marker_rate, self._guarded(self._display.draw), clock=steady)
         self.create_timer(PERIOD_S, self._guarded(
             lambda: self._monitor.report(self._inputs.problems)), clock=steady)
         self.add_on_set_parameters_callback(
@@ -170,9 +175,10 @@ class GraspQualityNode(LifecycleNode):
         was_active, self.active = self.active, False
         self._inputs.clear()
         if was_active:
-            self._outputs.publish_failure(
-                error_result(NotActiveError(reason)), self.get_clock().now().to_msg())
-            self._outputs.flush(FLUSH_S)
+            stamp = self.get_clock().now().to_msg()
+            self._outputs.publish_failure(error_result(NotActiveError(reason)), stamp)
+            self._display.clear(Header(stamp=stamp))
+            self._outputs.flush(FLUSH_S, self._display.publishers)
 
     def on_error(self, state):
         """Compute nothing after a transition that went wrong."""

@@ -23,13 +23,14 @@ from std_msgs.msg import Header
 
 
 class LiveLoop:
-    """Evaluates ``inputs`` and publishes on ``outputs``; tells ``monitor`` how it went."""
+    """Evaluates ``inputs`` and publishes on ``outputs`` and ``display``; ``monitor`` counts."""
 
-    def __init__(self, inputs, outputs, settings, monitor, now):
+    def __init__(self, inputs, outputs, settings, monitor, display, now):
         self._inputs = inputs
         self._outputs = outputs
         self._settings = settings
         self._monitor = monitor
+        self._display = display
         self._now = now
 
     def evaluate(self):
@@ -37,8 +38,9 @@ class LiveLoop:
         scene = None
         try:
             scene = self._inputs.scene()
-            quality, answer = self._answer(scene)
-            self._outputs.publish(quality, *answer)
+            quality, answer, load = self._answer(scene)
+            self._outputs.publish(quality, scene.grasp, *answer)
+            self._display.show(scene, load, quality, *answer)
             self._monitor.count(quality)
         except Exception as exc:
             self._fail(exc, scene)
@@ -55,6 +57,7 @@ class LiveLoop:
         result = error_result(exc)
         self._monitor.count_failure(result, exc)
         self._outputs.publish_failure(result, stamp, frame)
+        self._display.clear(Header(stamp=stamp, frame_id=frame))
 
     def _answer(self, scene):
         settings = self._settings()
@@ -75,7 +78,7 @@ class LiveLoop:
             friction_margin=solution.friction_margin, limiting_contact=solution.limiting_contact,
             contact_age=to_duration(self._inputs.age_s()), solve_time=to_duration(solve_time),
             slip_measured=margin is not None, measured_slip_margin=margin or 0.0)
-        return quality, (scene.grasp, solution.forces, solution.cone_usage)
+        return quality, (solution.forces, solution.cone_usage), load
 
     def _task_and_load(self, scene):
         inputs, limit = self._inputs, self._settings().max_request_size

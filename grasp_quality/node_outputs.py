@@ -64,10 +64,11 @@ class Outputs:
         """Publish a ResultCode other than OPTIMAL, stamped with its contacts' time or now."""
         self.publish(GraspQuality(header=Header(stamp=stamp, frame_id=frame), result=result))
 
-    def flush(self, timeout_s):
+    def flush(self, timeout_s, others=()):
         """Wait until all subscribers have what was published: destroying a publisher drops it."""
         deadline = time.monotonic() + timeout_s
-        for publisher in (self._forces, self._quality, self._alpha, *self._wrenches.values()):
+        own = (self._forces, self._quality, self._alpha, *self._wrenches.values())
+        for publisher in (*own, *others):
             left = deadline - time.monotonic()
             if publisher is not None and left > 0.0:
                 publisher.wait_for_all_acked(Duration(seconds=left))

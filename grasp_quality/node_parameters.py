@@ -60,6 +60,9 @@ class Settings:
     solver_time_limit: float = 1.0
     max_request_size: int = 4096
     map_directions: int = 2592
+    marker_rate: float = 20.0
+    marker_force_scale: float = 0.0
+    display_time_share: float = 0.05
     autostart: bool = True
 
     def __post_init__(self):
@@ -134,6 +137,12 @@ TABLE = {
                          'message or request', (1, 1_000_000), False),
     'map_directions': (Type.INTEGER, 'Directions of a wrench map that names none', (2, 1_000_000),
                        False),
+    'marker_rate': (Type.DOUBLE, 'Most often that markers are published [Hz]', (0.1, 1000.0),
+                    True),
+    'marker_force_scale': (Type.DOUBLE, 'Length of a newton in the markers [m/N]; 0: chosen by '
+                           'the size of the grasp', (0.0, LARGE), False),
+    'display_time_share': (Type.DOUBLE, 'Share of the time that goes into the force map while '
+                           'somebody watches it [-]', (1e-3, 1.0), False),
     'autostart': (Type.BOOL, 'Configure and activate at start', None, True),
 }
 

@@ -20,6 +20,13 @@ def newest_command():
     return _depth_one(ReliabilityPolicy.RELIABLE)
 
 
+def display() -> QoSProfile:
+    """Markers: reliable, and none overwritten by the next, because one may take others away."""
+    return QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=10,
+                      reliability=ReliabilityPolicy.RELIABLE,
+                      durability=DurabilityPolicy.VOLATILE)
+
+
 def _depth_one(reliability):
     return QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=1, reliability=reliability,
                       durability=DurabilityPolicy.VOLATILE)

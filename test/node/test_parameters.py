@@ -17,7 +17,8 @@ NAMES = {
     'object_frame', 'contact_source', 'contact_names', 'contact_fingers', 'contact_model',
     'friction_coefficient', 'torsional_friction_coefficient', 'max_normal_force', 'force_bound',
     'barrier_weight', 'task_wrench', 'min_contact_force', 'max_contact_age', 'solver_time_limit',
-    'max_request_size', 'map_directions', 'autostart'}
+    'max_request_size', 'map_directions', 'marker_rate', 'marker_force_scale',
+    'display_time_share', 'autostart'}
 ALONG_Y = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]
 
 
