@@ -57,7 +57,7 @@ def run(problem, attempt=0, limit=None):
         shape=(variables, rows))
     u, multipliers, status = run_matrices(
         _zeros(rows), problem.e, matrix, -problem.c, _cones(problem.cones),
-        _settings(attempt, limit and limit.remaining_s(problem)), problem)
+        solver_settings(attempt, limit and limit.remaining_s(problem)), problem)
     return RawAnswer(problem.layout.shares(u), u[problem.layout.virtual], multipliers, status)
 
 
@@ -86,7 +86,8 @@ def _cones(cones):
     return [CONES[kind](size) for kind, size in cones]
 
 
-def _settings(attempt, time_limit_s):
+def solver_settings(attempt, time_limit_s):
+    """Build settings of one of ``ATTEMPTS``."""
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.max_threads = 1

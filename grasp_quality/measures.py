@@ -16,6 +16,7 @@ from grasp_quality.batch import solve_wrenches
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.polytope import evaluate_ellipsoid, evaluate_polytope
 from grasp_quality.problem import build_problem
+from grasp_quality.reserve import with_reserve
 from grasp_quality.solution import WrenchMap
 from grasp_quality.solve import solve
 from grasp_quality.task import check_rows, TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
@@ -23,7 +24,8 @@ from grasp_quality.time_limit import TimeLimit
 import numpy as np
 
 
-def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s=None):
+def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s=None,
+             alpha_reserve=0.0, start=None):
     """
     Tell how much of a task the grasp can apply, and with which forces.
 
@@ -39,6 +41,11 @@ def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s
         eps >= 0 of eq. (11), in the unit of alpha: buys friction margin with alpha.
     time_limit_s : float, optional
         For the whole question [s].
+    alpha_reserve : float
+        d in [0, 1): 0 gives forces of the largest alpha; more gives the unique forces with the
+        largest margin at alpha* - d (alpha* - alpha_lower), which do not jump (``reserve``).
+    start : Solution, optional
+        Answer with a reserve for contacts close by, to begin from; changes the time only.
 
     Returns
     -------
@@ -51,12 +58,20 @@ def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s
     """
     time_limit_s = TimeLimit.of(time_limit_s)
     eps = checked_number(barrier_weight, 'barrier_weight', InvalidTaskError, minimum=0.0)
+    reserve = checked_number(
+        alpha_reserve, 'alpha_reserve', InvalidTaskError, minimum=0.0, below=1.0)
+    if eps > 0.0 and reserve > 0.0:
+        raise InvalidTaskError(
+            f'barrier_weight {eps:g} and alpha_reserve {reserve:g} are two ways to buy margin '
+            'with alpha: set one of them to 0')
 
     def one(single):
         problem = build_problem(grasp, single, external_wrench)
         solution = solve(problem, time_limit_s)
         if eps > 0.0 and solution.feasible:
             solution = with_margin(problem, solution, eps, time_limit_s)
+        if reserve > 0.0 and solution.feasible:
+            solution = with_reserve(problem, solution, reserve, start, time_limit_s)
         return solution
 
     if isinstance(task, TaskWrench):

@@ -14,6 +14,7 @@ from functools import cached_property
 
 from grasp_quality import sensitivity
 from grasp_quality.arrays import frozen
+from grasp_quality.force_center import ForceCenter
 from grasp_quality.grasp import Grasp
 from grasp_quality.proof import Proof
 from grasp_quality.wrench import skew
@@ -64,6 +65,8 @@ class Solution:
         lambda = d alpha / d F_ext [1/N, 1/(N m)].
     barrier_weight : float
         eps of eq. (11); in the unit of alpha.
+    center : ForceCenter or None
+        Of forces with an ``alpha_reserve``; where the search for the next contacts may begin.
 
     """
 
@@ -82,6 +85,7 @@ class Solution:
     bound_multiplier: np.ndarray
     reference_forces: np.ndarray
     barrier_weight: float = 0.0
+    center: ForceCenter = None
 
     @property
     def feasible(self):
