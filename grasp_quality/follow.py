@@ -65,6 +65,8 @@ def follow(problem: ConicProblem, goal: Solution, forces: Array, allowed_change:
         Forces commanded last, [t1, t2, n, m_n] in the present contact frames.
     allowed_change : float [N]
         Largest change of any contact's force, a moment counted as m_n / gamma.
+    time_limit : TimeLimit, optional
+        Of the question that this is part of.
 
     Returns
     -------

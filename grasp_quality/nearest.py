@@ -63,6 +63,7 @@ def nearest_forces(problem: ConicProblem, shares: Array,
     shares : (k, 4) array
         Given forces as shares [t1/mu, t2/mu, n, m_n/gamma] / f_max, anywhere.
     limit : TimeLimit, optional
+        Of the question that this is part of.
 
     Returns
     -------
@@ -87,7 +88,7 @@ def nearest_forces(problem: ConicProblem, shares: Array,
     b = np.concatenate([problem.e, np.zeros(size)])
     cones = [clarabel.ZeroConeT(len(problem.e)), *(CONES[kind](n) for kind, n in problem.cones)]
     said = ''
-    for attempt in reversed(range(len(ATTEMPTS))):  # the sharpest first: no second solver refines
+    for attempt in reversed(range(len(ATTEMPTS))):  # the sharpest first
         settings = solver_settings(attempt, limit and limit.remaining_s(problem))
         _, u, said = run_matrices(P, linear, A, b, cones, settings, problem)
         if said == 'PrimalInfeasible':
