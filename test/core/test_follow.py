@@ -81,7 +81,7 @@ def test_forces_on_the_edge_of_the_cones_can_be_a_goal():
     problem, goal = answer(antipodal(0.5), TaskWrench(FY), reserve=0.0)
     found = follow(problem, goal, np.array([[0.0, 0.0, 1.0, 0.0]] * 2), 0.3)
     check_forces(antipodal(0.5), found.solution.forces, found.solution.wrench)
-    assert found.solution.alpha == pytest.approx(0.6, abs=1e-4)  # 0.3 N each; square root of SOLVER
+    assert found.solution.alpha == pytest.approx(0.6, abs=1e-4)  # 0.3 N each
     assert found.largest_change <= 0.3 * (1.0 + SOLVER)
 
 
