@@ -7,7 +7,7 @@ Ordinary grasps hold a unit ball; degenerate ones have contacts on top of each o
 caps and friction over six decades, frictionless contacts, at any size from 1 mm and 1 mN on.
 """
 
-from grasp_quality import Contact, ContactModel, Grasp
+from grasp_quality import Contact, ContactModel, Grasp, JointLimits
 import numpy as np
 
 BOUNDS = ('l1', 'l2', 'linf', 'finger')
@@ -35,6 +35,25 @@ def random_load(rng, grasp):
     sides *= (0.5 * normals / np.linalg.norm(sides, axis=1))[:, None]
     shares = np.stack([sides[:, 0], sides[:, 1], normals, sides[:, 2]], axis=1)
     return -grasp.wrench(shares * grasp.force_units)
+
+
+def random_joint_limits(rng, grasp, tightness=None, gravity=0.3):
+    """
+    Return limits of 1 to 9 joints, each loaded by some of the contacts.
+
+    ``tightness`` is a limit's share of what the normals at their caps load the joint with, by
+    default between 0.001 and 10; ``gravity`` is the largest share of a limit that the hand's own
+    weight takes.
+
+    """
+    count = int(rng.integers(1, 10))
+    matrix = 0.1 * rng.normal(size=(count, len(grasp), 4))
+    matrix *= rng.uniform(size=(count, len(grasp), 1)) < 0.5
+    loads = np.abs(matrix[:, :, 2] * grasp.max_normal_forces).sum(axis=1) + 1e-3
+    tightness = 10.0 ** rng.uniform(-3, 1) if tightness is None else tightness
+    limits = tightness * loads * rng.uniform(0.3, 1.0, count)
+    return JointLimits([f'joint_{i}' for i in range(count)], limits, matrix,
+                       gravity * limits * rng.uniform(-1.0, 1.0, count))
 
 
 def degenerate_grasp(rng):

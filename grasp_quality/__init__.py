@@ -17,6 +17,7 @@ from grasp_quality.exceptions import (
 from grasp_quality.grasp import Grasp
 from grasp_quality.grasp_set import GraspSet
 from grasp_quality.holding import minimum_forces, MinimumForces
+from grasp_quality.joint_limits import JointLimits
 from grasp_quality.many import evaluate_many, ManySolution, Outcome
 from grasp_quality.margin_forces import hold_forces, HoldForces
 from grasp_quality.measures import evaluate, slip_margin, wrench_map
@@ -29,8 +30,8 @@ from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
 __all__ = [
     'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel', 'ForceClosure', 'Grasp',
     'GraspQualityError', 'GraspSet', 'HoldForces', 'InvalidContactError', 'InvalidGraspError',
-    'InvalidTaskError', 'ManySolution', 'MinimumForces', 'Outcome', 'PolytopeSolution',
-    'RobustAlpha', 'Solution', 'SolverError', 'SolverTimeoutError', 'Status', 'TaskCone',
-    'TaskEllipsoid', 'TaskPolytope', 'TaskWrench', 'WrenchMap', 'build_problem', 'evaluate',
-    'evaluate_many', 'force_closure', 'hold_forces', 'minimum_forces', 'robust_alpha',
-    'slip_margin', 'solve', 'wrench_map']
+    'InvalidTaskError', 'JointLimits', 'ManySolution', 'MinimumForces', 'Outcome',
+    'PolytopeSolution', 'RobustAlpha', 'Solution', 'SolverError', 'SolverTimeoutError', 'Status',
+    'TaskCone', 'TaskEllipsoid', 'TaskPolytope', 'TaskWrench', 'WrenchMap', 'build_problem',
+    'evaluate', 'evaluate_many', 'force_closure', 'hold_forces', 'minimum_forces',
+    'robust_alpha', 'slip_margin', 'solve', 'wrench_map']

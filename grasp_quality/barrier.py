@@ -113,6 +113,8 @@ def _center(problem, eps, with_task):
         return None
     shares, values, multipliers = found
     excess = max(1.0, gauge(shares[:, 2], grasp.bound, grasp.groups))
+    if grasp.joint_rows is not None:
+        excess = max(excess, grasp.joint_rows.shrinkage(shares))
     return shares / excess, values, multipliers
 
 
@@ -142,7 +144,7 @@ def objective_upper(problem, multipliers, eps, proof):
     """
     Bound the objective of eq. (11), in scaled units, by its Lagrangian dual in closed form.
 
-    With s_i = (nu_i - h_n, -h_rest), h = G_i^T lambda, every contact contributes
+    With s_i = (nu_i - h_n, -h_rest), h = G_i^T lambda - T_i^T mu, every contact contributes
     eps (log(4 eps^2 / det s_i) - 2), or eps (log(eps / s_i) - 1) without friction; any lambda with
     lambda . F >= 1 gives a bound, and so does any nu that keeps every s_i inside its cone. What
     lambda . F lacks of one is made up with the multipliers of eps = 0.
@@ -163,9 +165,11 @@ def objective_upper(problem, multipliers, eps, proof):
     nu = np.maximum(problem.layout.contact_multipliers(multipliers), 0.0)
     along = multipliers[:6] @ columns
     missing = max(0.0, 1.0 - along[0] + np.sqrt(along[1:] @ along[1:]))
-    lambda_ = multipliers[:6] + missing * proof.multiplier
+    worths = problem.layout.worths(multipliers) + missing * np.concatenate(
+        [proof.multiplier, proof.joint_multiplier])
+    lambda_, mu = worths[:6], worths[6:]
     nu = nu + missing * proof.bound_multiplier
-    h = (lambda_ @ grasp.scaled_matrix.reshape(6, -1)).reshape(-1, 4)
+    h = (worths @ grasp.work_matrix).reshape(-1, 4)
     rest = np.sqrt(h[:, 0] ** 2 + h[:, 1] ** 2 + h[:, 3] ** 2)
     s = nu - h[:, 2]
     if not (s > rest).all():
@@ -173,8 +177,9 @@ def objective_upper(problem, multipliers, eps, proof):
     frictional = _frictional(grasp)
     each = np.where(frictional, np.log(4.0 * eps ** 2 / ((s - rest) * (s + rest))) - 2.0,
                     np.log(eps / s) - 1.0)
+    joints = 0.0 if grasp.joint_rows is None else grasp.joint_rows.cost(mu, np.abs(mu))
     return (support(nu, grasp.bound, grasp.groups) + lambda_ @ problem.scaled_external_wrench
-            + eps * each.sum())
+            + joints + eps * each.sum())
 
 
 def has_interior(problem, time_limit_s=None):

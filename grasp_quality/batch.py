@@ -76,7 +76,7 @@ def solve_wrenches(grasp, wrenches, external_wrench=None, time_limit_s=None):
     limit = TimeLimit.of(time_limit_s)
     load = NO_WRENCH if external_wrench is None else as_wrench(external_wrench, 'external wrench')
     count, k = len(wrenches), len(grasp)
-    if grasp.bound == 'l2' or not count:
+    if grasp.bound == 'l2' or grasp.joint_limits is not None or not count:
         alpha, forces, proved = np.zeros(count), np.zeros((count, k, 4)), np.zeros(count, bool)
     else:
         alpha, forces, proved = _by_kernel(grasp, wrenches, load, limit)

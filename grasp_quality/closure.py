@@ -4,8 +4,9 @@
 Force closure: whether the contacts can resist every wrench, if only it is small enough.
 
 A grasp has force closure when its matrix has rank 6 and there is an internal force strictly
-inside all friction cones. The margin of the second is itself a conic program: a common share of
-the caps, pressed by every contact on top of forces inside the cones, as the virtual contact.
+inside all friction cones, and inside the joints' limits where there are any. The margin of the
+second is itself a conic program: a common share of the caps, pressed by every contact on top of
+forces inside the cones, as the virtual contact; the joints' limits shrink by the same share.
 """
 
 from dataclasses import dataclass
@@ -29,7 +30,8 @@ class ForceClosure:
         Of the grasp matrix.
     margin : float
         Largest share of the caps, in [0, 1], by which every contact can stay inside its friction
-        cone while the forces balance each other: |(t/mu, m_n/gamma)| <= n - margin f_max.
+        cone while the forces balance each other: |(t/mu, m_n/gamma)| <= n - margin f_max; and
+        every limited joint inside its limit: |tau| <= (1 - margin) tau_max.
 
     """
 
@@ -61,5 +63,7 @@ def force_closure(grasp, time_limit_s=None):
     normals = grasp.scaled_matrix[:, :, 2].sum(axis=1, keepdims=True)  # (6, 1)
     pressing = VirtualContact(-normals, False, np.array([1.0]), role='pressing')
     optimum = prove_optimal(assemble(grasp, pressing), time_limit_s)
+    if optimum is None:  # the joints cannot carry the hand itself
+        return ForceClosure(False, grasp.rank, 0.0)
     margin = max(0.0, min(float(optimum.values[0]), optimum.proof.upper))
     return ForceClosure(grasp.rank == 6 and margin > MARGIN_TOLERANCE, grasp.rank, margin)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from grasp_quality.arrays import checked, frozen
 from grasp_quality.contact import (
     Contact, ContactModel, FARTHEST, IDENTITY, ROTATION_TOLERANCE)
-from grasp_quality.exceptions import InvalidContactError
+from grasp_quality.exceptions import InvalidContactError, InvalidGraspError
 import numpy as np
 
 
@@ -132,3 +132,18 @@ class ContactSet(Sequence):
             torsional_friction=self.torsional_friction[index],
             max_normal_force=self.max_normal_forces[index], name=self.names[index],
             finger=self.fingers[index])
+
+
+def as_contact_set(contacts):
+    """Return a ContactSet of a sequence of Contact objects, or the set that was given."""
+    if isinstance(contacts, ContactSet):
+        return contacts
+    try:
+        contacts = tuple(contacts)
+    except TypeError as exc:
+        raise InvalidGraspError(
+            f'contacts must be a sequence of Contact, got {contacts!r}') from exc
+    strangers = [c for c in contacts if not isinstance(c, Contact)]
+    if strangers:
+        raise InvalidGraspError(f'contacts must be Contact objects, got {strangers[0]!r}')
+    return ContactSet.of(contacts)

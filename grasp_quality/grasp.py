@@ -13,10 +13,10 @@ import math
 
 from grasp_quality import bounds
 from grasp_quality.arrays import frozen
-from grasp_quality.contact import Contact
-from grasp_quality.contact_set import ContactSet
+from grasp_quality.contact_set import as_contact_set, ContactSet
 from grasp_quality.exceptions import InvalidGraspError
 from grasp_quality.friction_cone import coordinate_scales
+from grasp_quality.joint_limits import check_limits, JointLimits, JointRows
 from grasp_quality.wrench import shift, skew
 import numpy as np
 
@@ -37,6 +37,8 @@ class Grasp:
     bound : str
         'linf' (every contact obeys its own cap), 'l1' (the sum of n_i / f_max,i is at most 1),
         'l2' (their Euclidean norm is), 'finger' (their sum over each finger is).
+    joint_limits : JointLimits, optional
+        Motor torques that the forces must not exceed, for the same contacts in the same order.
 
     Raises
     ------
@@ -46,10 +48,11 @@ class Grasp:
 
     contacts: ContactSet
     bound: str = 'linf'
+    joint_limits: JointLimits = None
 
     def __post_init__(self):
         """Validate and freeze."""
-        contacts = _as_set(self.contacts)
+        contacts = as_contact_set(self.contacts)
         if not len(contacts):
             raise InvalidGraspError('a grasp needs at least one contact, got none')
         named = [name for name in contacts.names if name]
@@ -61,6 +64,7 @@ class Grasp:
             raise InvalidGraspError(
                 f'max_normal_force of one grasp may span a factor of {MAX_CAP_RATIO:g} at most, '
                 f'got {caps.min():g} to {caps.max():g} N: no answer could be exact for both')
+        check_limits(self.joint_limits, contacts.names)
         object.__setattr__(self, 'contacts', contacts)
         object.__setattr__(self, 'groups', bounds.groups_of(self.bound, contacts.fingers))
 
@@ -144,6 +148,28 @@ class Grasp:
         return frozen(G)
 
     @cached_property
+    def joint_rows(self):
+        """Joint limits in scaled units, JointRows; None without limits."""
+        return None if self.joint_limits is None else JointRows(
+            self.joint_limits, self.force_units)
+
+    @cached_property
+    def work_matrix(self):
+        """
+        Worth of every share for unit multipliers, (6, 4 k), or (6 + j, 4 k) with joint limits.
+
+        Rows are those of ``scaled_matrix``, and what the joints' torques cost, with a minus.
+
+        """
+        G = self.scaled_matrix.reshape(6, -1)
+        return G if self.joint_limits is None else frozen(np.vstack([G, -self.joint_rows.A]))
+
+    @property
+    def rests(self):
+        """Whether no contact force at all is admissible: the joints can carry the hand itself."""
+        return self.joint_limits is None or self.joint_limits.holds_itself
+
+    @cached_property
     def blocks(self):
         """
         Scaled grasp matrix as the kernel takes it.
@@ -220,17 +246,3 @@ class Grasp:
         G[3:, :, :3] = (skew(positions) @ R).transpose(1, 0, 2)
         G[3:, :, 3] = R[:, :, 2].T
         return G
-
-
-def _as_set(contacts):
-    if isinstance(contacts, ContactSet):
-        return contacts
-    try:
-        contacts = tuple(contacts)
-    except TypeError as exc:
-        raise InvalidGraspError(
-            f'contacts must be a sequence of Contact, got {contacts!r}') from exc
-    strangers = [c for c in contacts if not isinstance(c, Contact)]
-    if strangers:
-        raise InvalidGraspError(f'contacts must be Contact objects, got {strangers[0]!r}')
-    return ContactSet.of(contacts)

@@ -9,7 +9,7 @@ cones cannot balance the wrench, or only forces beyond the caps can, the answer 
 carries the smallest violation.
 """
 
-from dataclasses import dataclass
+import dataclasses
 
 from grasp_quality import friction_cone
 from grasp_quality.arrays import frozen
@@ -25,7 +25,7 @@ import numpy as np
 NEGLIGIBLE = 1e-15  # share of the caps that needs no forces to hold
 
 
-@dataclass(frozen=True, eq=False)
+@dataclasses.dataclass(frozen=True, eq=False)
 class MinimumForces:
     """
     Smallest contact forces that balance an external wrench: the dual problem (section III).
@@ -39,12 +39,14 @@ class MinimumForces:
     peak : float
         Smallest use of the force bound: max n_i / f_max,i for linf. More than 1 says how much
         larger the caps would have to be; inf when no forces inside the cones, up to a million
-        times the caps, balance the wrench.
+        times the caps, balance the wrench. Joint limits are not widened: inf also when they alone
+        are in the way.
     peak_lower : float
         Dual bound: no forces need less.
     violation : float
         Smallest |G x + F_ext| [N] that remains with forces inside cones and caps, torques
-        counted over the grasp's lever arm; 0 when feasible.
+        counted over the grasp's lever arm; 0 when feasible, inf when the joints cannot carry the
+        hand itself.
     cone_usage : (k,) array
 
     """
@@ -67,7 +69,8 @@ def minimum_forces(grasp, external_wrench, time_limit_s=None):
     """
     Find the smallest contact forces with G x + F_ext = 0.
 
-    Smallest in the sense of the grasp's own bound; alpha of the task -F_ext times ``peak`` is 1.
+    Smallest in the sense of the grasp's own bound; alpha of the task -F_ext times ``peak`` is 1,
+    unless joint limits, which do not grow with the bound, decide.
 
     Parameters
     ----------
@@ -91,11 +94,14 @@ def minimum_forces(grasp, external_wrench, time_limit_s=None):
     load = as_wrench(external_wrench, 'external wrench')
     scaled = grasp.scaled_wrench(load)
     size = float(np.sqrt(scaled @ scaled))
-    if size <= NEGLIGIBLE:
+    if size <= NEGLIGIBLE and grasp.rests:
         return MinimumForces(grasp, Status.OPTIMAL, np.zeros((len(grasp), 4)), 0.0, 0.0, 0.0,
                              np.zeros(len(grasp)))
+    size = size if grasp.rests else 1.0  # else it is the hand's own weight that asks for forces
     widening = VirtualContact(np.zeros((6, 1)), False, np.array([-1.0]), role='widening')
-    optimum = prove_optimal(assemble(grasp, widening, load / size), time_limit_s)
+    scaled_grasp = grasp if grasp.joint_limits is None else dataclasses.replace(
+        grasp, joint_limits=grasp.joint_limits.scaled(1.0 / size))
+    optimum = prove_optimal(assemble(scaled_grasp, widening, load / size), time_limit_s)
     if optimum is None:
         peak = lower = np.inf
     else:
@@ -118,4 +124,4 @@ def violation(grasp, external_wrench, time_limit_s=None):
     columns = np.concatenate([np.zeros((6, 1)), np.eye(6)], axis=1)
     remainder = VirtualContact(columns, True, np.concatenate([[-1.0], np.zeros(6)]))
     optimum = prove_optimal(assemble(grasp, remainder, external_wrench), time_limit_s)
-    return float(optimum.values[0]) * grasp.force_scale
+    return float(optimum.values[0]) * grasp.force_scale if optimum else np.inf

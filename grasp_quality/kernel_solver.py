@@ -15,7 +15,8 @@ import numpy as np
 def handles(problem):
     """Whether the kernel knows this kind of problem."""
     return problem.virtual.role == 'task' and not problem.virtual.is_cone \
-        and problem.virtual.columns.shape[1] == 1 and problem.grasp.bound != 'l2'
+        and problem.virtual.columns.shape[1] == 1 and problem.grasp.bound != 'l2' \
+        and problem.grasp.joint_limits is None
 
 
 def run(problem, limit=None, weights=None):

@@ -3,9 +3,9 @@
 """
 Where each variable and each equation of the conic program stands.
 
-A layout depends on the contacts' models, the groups of the force bound and the kind of virtual
-contact, not on any number, and is made once for each such pattern. Variables, in order: slacks of
-the groups, a single virtual variable, frictionless normals (all non-negative), one second-order
+A layout depends on the contacts' models, the groups of the force bound, the number of joints and
+the kind of virtual contact, not on any number, and is made once for each such pattern. Variables, in order: slacks of
+the groups and of the joint limits, a single virtual variable, frictionless normals (all non-negative), one second-order
 cone a contact, the cone of the virtual contact, and for the l2 bound the cone of all normals.
 """
 
@@ -39,9 +39,13 @@ class Layout:
         Sparsity of E, row by row: variables of the stored entries, and where each row begins.
     bound_entries, bound_right : arrays
         Stored entries and right sides of the bound's equations, which are constants.
+    joint_sources : two (entries,) int arrays
+        For each entry of an upper, and of a summed row of a joint, its place in the joint's line
+        of coefficients: those of the flattened (k, 4) coordinates, of a slack, and of a common
+        press in either row.
     shape : (int, int)
         Equations and variables.
-    contact_count: int
+    contact_count, joint_count : int
 
     """
 
@@ -55,8 +59,10 @@ class Layout:
     row_starts: np.ndarray
     bound_entries: np.ndarray
     bound_right: np.ndarray
+    joint_sources: tuple
     shape: tuple
     contact_count: int
+    joint_count: int
 
     @cached_property
     def blocks(self):
@@ -77,11 +83,25 @@ class Layout:
 
     def contact_multipliers(self, multipliers):
         """Multiplier nu of the bound for every contact (k,), from those of all equations."""
-        return multipliers[6:][list(self.groups)] if self.groups else multipliers[7:]
+        if self.groups:
+            return multipliers[6:][list(self.groups)]
+        return multipliers[7:7 + self.contact_count]
+
+    def worths(self, multipliers):
+        """Worth of the equilibrium and, signed, of the joints (6 + j,), from all multipliers."""
+        if not self.joint_count:
+            return multipliers[:6]
+        return np.concatenate([multipliers[:6], multipliers[-2 * self.joint_count:][
+            :self.joint_count]])
+
+    def joint_spreads(self, multipliers):
+        """Sum of the multipliers of both limits of each joint, (j,)."""
+        upper, both = multipliers[-2 * self.joint_count:].reshape(2, -1)
+        return np.maximum(upper + 2.0 * both, np.abs(upper))
 
 
 @lru_cache(maxsize=256)
-def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role):
+def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role, joint_count=0):
     """
     Lay a pattern out.
 
@@ -101,6 +121,9 @@ def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role):
         'task': the virtual contact takes part in equilibrium only. 'pressing': its first variable
         is also a normal force common to all contacts, as a share of their caps. 'widening': it
         takes no part in equilibrium; the bound is its value instead of one.
+    joint_count : int
+        Joints with a torque limit. Each has two slacks p, q and two rows: its torque + p at the
+        upper limit, and p + q the way between the limits.
 
     """
     coordinates = [[j for j in CONE_ORDER if row[j]]
@@ -113,6 +136,7 @@ def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role):
         return range(next_variable - count, next_variable)
 
     slacks = take(0 if is_l2 else max(groups) + 1)
+    joints = [take(2) for _ in range(joint_count)]
     virtual = None if virtual_is_cone else take(virtual_size)
     variables = {i: take(1) for i, c in enumerate(coordinates) if len(c) == 1}
     cones = [('nonnegative', next_variable)]
@@ -150,7 +174,13 @@ def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role):
             {slack: 1.0, **{variables[i][0]: 1.0 for i in members}, **press, **widen}, right))
     rows = [(sorted(row.items()), right) for row, right in rows]
 
-    lengths = [len(entries)] * 6 + [len(row) for row, _ in rows]
+    size = 4 * len(coordinates)
+    press = [(virtual[0], size + 1)] if role == 'pressing' else []
+    upper = [[(p, size), *sorted(press + contact_entries)] for p, _ in joints]
+    press = [(virtual[0], size + 2)] if role == 'pressing' else []
+    both = [[(p, size), (q, size), *press] for p, q in joints]
+
+    lengths = [len(entries)] * 6 + [len(row) for row in [*(r for r, _ in rows), *upper, *both]]
     equilibrium_columns = [v for v, _ in entries] * 6
     return Layout(
         groups=() if is_l2 else groups,
@@ -159,9 +189,12 @@ def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role):
         contact_variables=np.array([v for v, _ in contact_entries]),
         contact_source=np.array([source for _, source in contact_entries]),
         source=np.array([source for _, source in entries]),
-        row_columns=np.array(equilibrium_columns + [v for row, _ in rows for v, _ in row]),
+        row_columns=np.array(equilibrium_columns + [
+            v for row in [*(r for r, _ in rows), *upper, *both] for v, _ in row]),
         row_starts=np.concatenate([[0], np.cumsum(lengths)]),
         bound_entries=np.array([value for row, _ in rows for _, value in row]),
         bound_right=np.array([right for _, right in rows]),
+        joint_sources=tuple(np.array([source for _, source in kind[0]]) for kind in (
+            (upper, both) if joints else ())),
         shape=(len(lengths), next_variable),
-        contact_count=len(coordinates))
+        contact_count=len(coordinates), joint_count=joint_count)

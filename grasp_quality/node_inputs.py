@@ -161,7 +161,8 @@ class Inputs:
                 silent = [name for name, force in zip(grasp.names, forces) if force is None]
                 raise NoContactsError(NOT_LOADED + (
                     f'; no fresh wrench came for {silent}' if silent else ''))
-            grasp = Grasp(grasp.contacts.subset(loaded), settings.force_bound)
+            limits = grasp.joint_limits and grasp.joint_limits.subset(loaded)
+            grasp = Grasp(grasp.contacts.subset(loaded), settings.force_bound, limits)
             forces = [forces[i] for i in loaded]
         return Scene(grasp, tuple(forces), frame, message.header.stamp)
 

@@ -6,10 +6,11 @@ Build: a grasp and a task as one conic program in standard form.
     maximise c . u   subject to   E u = e,   u in K
 
 u holds, for every contact, its force as shares [t1/mu, t2/mu, n, m_n/gamma] / f_max in a standard
-second-order cone (or a half line when it is frictionless), the slack of every group of the force
-bound, and the task. The task is a virtual contact (the paper, section IV): its columns stand with
+second-order cone (or a half line when it is frictionless), the slacks of the force bound and of the joints'
+limits, and the task. The task is a virtual contact (the paper, section IV): its columns stand with
 a minus sign beside the grasp matrix. The first six equations are the equilibrium G x + F_ext =
-alpha F, about the contacts' centre, in shares of lever arm and largest cap; the rest is the bound.
+alpha F, about the contacts' centre, in shares of lever arm and largest cap; then comes the bound,
+and last the joints' limits |T x + tau_g| <= tau_max, two equations a joint.
 
 Which variable stands where depends on the contact models and the bound only, so ``layout`` caches
 it; building is then one gather of numbers. Nothing here knows of a solver.
@@ -91,8 +92,16 @@ class ConicProblem:
         """E's stored entries, row by row, as the layout orders them."""
         columns = np.concatenate(
             [-self.grasp.scaled_matrix.reshape(6, -1), self.virtual.columns], axis=1)
-        return np.concatenate(
-            [columns[:, self.layout.source].ravel(), self.layout.bound_entries])
+        return np.concatenate([columns[:, self.layout.source].ravel(),
+                               self.layout.bound_entries, *self._joint_entries()])
+
+    def _joint_entries(self):
+        joints = self.grasp.joint_rows
+        if joints is None:
+            return []
+        line = np.column_stack([joints.A, np.ones(len(joints.b)), joints.pressing + joints.b,
+                                2.0 * joints.b])  # (j, 4 k + 3)
+        return [line[:, source].ravel() for source in self.layout.joint_sources]
 
     @cached_property
     def E(self):
@@ -106,7 +115,9 @@ class ConicProblem:
     @cached_property
     def e(self):
         """Right side of the equations (rows,)."""
-        return np.concatenate([self.scaled_external_wrench, self.layout.bound_right])
+        joints = self.grasp.joint_rows
+        limits = [] if joints is None else [joints.b - joints.g, 2.0 * joints.b]
+        return np.concatenate([self.scaled_external_wrench, self.layout.bound_right, *limits])
 
     @cached_property
     def c(self):
@@ -175,5 +186,6 @@ def assemble(grasp, virtual, external_wrench=None):
     active = grasp.scales > 0.0
     layout = layout_of(
         active.tobytes(), grasp.groups, grasp.bound == 'l2',
-        virtual.columns.shape[1], virtual.is_cone, virtual.role)
+        virtual.columns.shape[1], virtual.is_cone, virtual.role,
+        0 if grasp.joint_limits is None else len(grasp.joint_limits))
     return ConicProblem(grasp, virtual, load, layout)

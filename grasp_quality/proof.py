@@ -3,7 +3,7 @@
 """
 The proof that goes with every answer, computed apart from the solver, in plain numpy.
 
-From any multipliers (lambda for equilibrium, nu for the bound) weak duality gives an upper bound
+From any multipliers (lambda for equilibrium, nu for the bound, mu for joints) weak duality gives an upper bound
 of the objective, once they are made exactly feasible: nu is recomputed from lambda through the
 support functions of the cones, and both are scaled until the virtual contact's condition holds
 (docs/derivations.md). From the forces come the equilibrium residual, the largest cone usage and
@@ -21,11 +21,11 @@ GAP_TOLERANCE = 1e-6       # of max(objective, 1e-3 a0)
 RESIDUAL_TOLERANCE = 1e-8  # of the caps' total, torques over the lever arm
 IMBALANCE_TOLERANCE = 1e-6  # of the task's or the load's own size
 USAGE_TOLERANCE = 1e-9     # over a cone usage, or a use of the bound, of one
-INFEASIBILITY_TOLERANCE = 1e-9  # of the caps' total: distance to any feasible load
 FREE_TASK = 1e-8  # share of the multipliers by which a task's worth may fall below zero
+JOINT_TOLERANCE = 1e-8  # over a use of a torque limit of one
 SMALL_CAP = 1e-2  # share of the smallest cap that counts as something to balance
+NO_JOINTS = frozen(np.zeros(0))
 ROUNDING = 1e-12  # share of a cap that may stand outside its cone unseen
-ENDLESS = 1e6  # times the caps: a load that needs more counts as one that no forces balance
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +52,10 @@ class Proof:
         nu of each contact's group (for l2 of each contact).
     size : float
         Natural size of the objective, a0.
+    joint_usage : (j,) array
+        How much of each joint's torque limit the forces and gravity take.
+    joint_multiplier : (j,) array
+        Signed worth of each joint's torque, in scaled units.
 
     """
 
@@ -64,6 +68,8 @@ class Proof:
     multiplier: np.ndarray
     bound_multiplier: np.ndarray
     size: float
+    joint_usage: np.ndarray
+    joint_multiplier: np.ndarray
 
     @property
     def usage(self):
@@ -82,17 +88,19 @@ class Proof:
 
     @property
     def admissible(self):
-        """Whether residual, cone usage and use of the bound are within tolerance."""
+        """Whether residual and use of cones, bound and joints are within tolerance."""
         return bool(
             self.residual <= RESIDUAL_TOLERANCE
             and self.imbalance <= IMBALANCE_TOLERANCE
             and self.usage <= 1.0 + USAGE_TOLERANCE
-            and self.bound_usage <= 1.0 + USAGE_TOLERANCE)
+            and self.bound_usage <= 1.0 + USAGE_TOLERANCE
+            and self.joint_usage.max(initial=0.0) <= 1.0 + JOINT_TOLERANCE)
 
     def __str__(self):
-        """State the four numbers in one line."""
+        """State these numbers in one line."""
         return (f'gap {self.gap:.2g}, residual {self.residual:.2g}, usage {self.usage:.12g}, '
-                f'use of the bound {self.bound_usage:.12g}')
+                f'use of the bound {self.bound_usage:.12g}, of the joints '
+                f'{self.joint_usage.max(initial=0.0):.12g}')
 
 
 def prove(problem, shares, values, multipliers):
@@ -117,13 +125,20 @@ def prove(problem, shares, values, multipliers):
 
     """
     grasp, virtual = problem.grasp, problem.virtual
-    nu, multipliers = multipliers, multipliers[:6]
+    nu, multipliers = multipliers, problem.layout.worths(multipliers)
     _, per_contact, bound_total = worth_of(grasp, multipliers)
     if virtual.role == 'pressing':  # here the least nu is not always the best
         per_contact = np.maximum(per_contact, problem.layout.contact_multipliers(nu))
         bound_total = bounds.support(per_contact, grasp.bound, grasp.groups)
     slack = _virtual_slack(problem, multipliers, per_contact, bound_total)
-    upper = multipliers @ problem.scaled_external_wrench
+    upper = multipliers[:6] @ problem.scaled_external_wrench
+    joints = grasp.joint_rows
+    if joints is not None:
+        spreads = np.abs(multipliers[6:])
+        if virtual.role == 'pressing':
+            spreads = problem.layout.joint_spreads(nu)
+            slack += joints.pressing @ multipliers[6:] + joints.b @ spreads
+        upper += joints.cost(multipliers[6:], spreads)
     if virtual.role != 'widening':
         upper += bound_total
     scale = 1.0
@@ -135,6 +150,9 @@ def prove(problem, shares, values, multipliers):
         upper, multipliers, per_contact = upper * scale, multipliers * scale, per_contact * scale
     else:
         upper = np.inf
+    if virtual.role == 'task' and virtual.objective[0] < 0.0 and upper > 0.0:
+        # least alpha >= 0: no multipliers at all bound it by zero, without their rounding
+        upper, multipliers, per_contact = 0.0, np.zeros_like(multipliers), np.zeros(len(grasp))
     if virtual.role == 'task' and virtual.objective[0] > 0.0:
         values = held(values, upper)
     balance = (grasp.scaled_matrix.reshape(6, -1) @ shares.ravel()
@@ -143,8 +161,8 @@ def prove(problem, shares, values, multipliers):
     allowed = values[0] if widening else 1.0
     applied = 0.0 if widening else virtual.columns @ values
     balance = balance - applied
-    pressed = shares[:, 2] + (values[0] if virtual.role == 'pressing' else 0.0)
-    used = bounds.gauge(pressed, grasp.bound, grasp.groups)
+    press = values[0] if virtual.role == 'pressing' else 0.0
+    used = bounds.gauge(shares[:, 2] + press, grasp.bound, grasp.groups)
     load = problem.scaled_external_wrench
     size_of_forces = max(problem.reach * allowed, math.sqrt(load @ load))
     left = math.sqrt(balance @ balance)
@@ -155,8 +173,10 @@ def prove(problem, shares, values, multipliers):
         imbalance=left / max(balanced, SMALL_CAP * grasp.least_cap),
         cone_usage=friction_cone.usage_of_shares(shares, unloaded=ROUNDING),
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
-        multiplier=frozen(multipliers), bound_multiplier=frozen(per_contact),
-        size=1.0 if virtual.role != 'task' else problem.reach)
+        multiplier=frozen(multipliers[:6]), bound_multiplier=frozen(per_contact),
+        size=1.0 if virtual.role != 'task' else problem.reach,
+        joint_usage=NO_JOINTS if joints is None else frozen(joints.usage(shares, press)),
+        joint_multiplier=frozen(multipliers[6:]))
 
 
 def held(values, upper):
@@ -165,53 +185,16 @@ def held(values, upper):
     return values * (first / values[0]) if first > 0.0 else np.zeros(len(values))
 
 
-def infeasibility_margin(problem, direction):
-    """
-    Distance that a direction proves between the load and anything the grasp can balance.
-
-    Parameters
-    ----------
-    problem : ConicProblem
-        Program that may be infeasible.
-    direction : (6,) array
-        Candidate lambda, in scaled units.
-
-    Returns
-    -------
-    float, as a share of the caps' total; the problem is infeasible when it is positive.
-
-    """
-    direction = _sparing_the_task(problem.virtual, direction)
-    size = np.sqrt(direction @ direction)
-    if not size > 0.0:
-        return 0.0
-    widest = ENDLESS if problem.virtual.role == 'widening' else 1.0
-    _, _, bound_total = worth_of(problem.grasp, direction)
-    work = widest * bound_total + direction @ problem.scaled_external_wrench
-    return float(-work / size / problem.reach)
-
-
-def _sparing_the_task(virtual, direction):
-    """Turn a direction until no task does negative work along it; zero where that fails."""
-    axis, rest = virtual.columns[:, 0], virtual.columns[:, 1:]
-    size = np.abs(direction).max()
-    if not 0.0 < size < np.inf:
-        return np.zeros(6)
-    direction = direction / size
-    if virtual.role == 'widening':
-        return direction
-    if virtual.role == 'pressing':  # a common press is what nu pays for
-        return direction if (direction @ rest >= 0.0).all() else np.zeros(6)
-    slack = direction @ axis - np.linalg.norm(direction @ rest)
-    turn = axis @ axis - np.linalg.norm(axis @ rest)
-    if slack < 0.0:
-        direction = direction - (slack / turn) * axis if turn > 0.0 else np.zeros(6)
-    return direction
-
-
 def worth_of(grasp, multipliers):
     """
     Value what each contact can do along a scaled lambda.
+
+    Parameters
+    ----------
+    grasp : Grasp
+        Contacts with their frames, friction, caps and force bound.
+    multipliers : (6,) array, or (6 + j,) with joint limits
+        lambda, and the signed worth of the joints' torques, which forces have to pay for.
 
     Returns
     -------
@@ -220,7 +203,7 @@ def worth_of(grasp, multipliers):
     float : support function of the wrench space, sigma_W(lambda)
 
     """
-    h = (multipliers @ grasp.scaled_matrix.reshape(6, -1)).reshape(-1, 4)
+    h = (multipliers @ grasp.work_matrix).reshape(-1, 4)
     worth = friction_cone.support(h, 1.0)
     useful = np.maximum(worth, 0.0)
     if grasp.bound in ('linf', 'l2'):
@@ -237,12 +220,12 @@ def _virtual_slack(problem, multipliers, per_contact, bound_total):
     virtual = problem.virtual
     if virtual.role == 'widening':
         return -bound_total
-    along = multipliers @ virtual.columns
+    along = multipliers[:6] @ virtual.columns
     if virtual.is_cone:
         return along[0] - np.sqrt(along[1:] @ along[1:])
     if virtual.role == 'pressing':
         # the other variables are tasks, alpha >= 0: a lambda that gains by one bounds nothing
-        size = max(np.abs(multipliers).max(), per_contact.max())
+        size = max(np.abs(multipliers[:6]).max(), per_contact.max())
         free = (along[1:] < -FREE_TASK * size).any()
         return -np.inf if free else along[0] + per_contact.sum()
     return along[0]

@@ -77,6 +77,7 @@ def state_task_wrench(grasp, wrench, external_wrench=None, barrier_weight=0.0):
     return Statement(grasp, cp.Problem(cp.Maximize(objective), [
         _wrench(grasp, forces) + _load(external_wrench) == alpha * _numbers(wrench),
         *_cones(grasp, forces),
+        *_joints(grasp, forces),
         *_bound(grasp, forces[:, 2], 1.0)]), forces, alpha)
 
 
@@ -104,6 +105,7 @@ def state_task_cone(grasp, task, external_wrench=None):
         _wrench(grasp, forces) + _load(external_wrench) == value @ directions,
         cp.norm(value[1:]) <= np.tan(task.half_angle) * value[0],
         *_cones(grasp, forces),
+        *_joints(grasp, forces),
         *_bound(grasp, forces[:, 2], 1.0)]), forces, value)
 
 
@@ -127,6 +129,7 @@ def state_minimum_forces(grasp, external_wrench):
     return Statement(grasp, cp.Problem(cp.Minimize(peak), [
         _wrench(grasp, forces) + _load(external_wrench) == 0,
         *_cones(grasp, forces),
+        *_joints(grasp, forces),
         *_bound(grasp, forces[:, 2], peak)]), forces, peak)
 
 
@@ -148,6 +151,7 @@ def state_force_closure(grasp):
     return Statement(grasp, cp.Problem(cp.Maximize(margin), [
         _wrench(grasp, forces) == 0,
         *_cones(grasp, forces, margin),
+        *_joints(grasp, forces, margin),
         *_bound(grasp, forces[:, 2], 1.0)]), forces, margin)
 
 
@@ -181,6 +185,16 @@ def _cones(grasp, forces, margin=0.0):
         constraints.append(cp.norm(cp.hstack(carried)) <= normal if carried else normal >= 0)
         constraints += [part == 0 for part in absent]
     return constraints
+
+
+def _joints(grasp, forces, margin=0.0):
+    """|T x + tau_g| <= (1 - margin) tau_max of every joint that has a limit."""
+    limits = grasp.joint_limits
+    return [] if limits is None else [
+        cp.abs(sum(T_j[i] @ forces[i] for i in range(len(grasp))) + gravity)
+        <= (1.0 - margin) * tau_max
+        for T_j, gravity, tau_max in zip(
+            limits.torque_matrix, limits.gravity_torques, limits.max_torques)]
 
 
 def _log_det(contact, x):

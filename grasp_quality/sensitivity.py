@@ -3,11 +3,13 @@
 """
 What the multipliers say about single contacts: worth of friction, and which one limits the task.
 
-``h`` (k, 4) is G_i^T lambda of every contact, in the coordinates [t1, t2, n, m_n]
-(docs/derivations.md).
+``h`` (k, 4) is G_i^T lambda - T_i^T mu of every contact, in the coordinates [t1, t2, n, m_n]: what
+a force is worth to the task, less what it costs the joints (docs/derivations.md).
 """
 
+from grasp_quality.arrays import frozen
 from grasp_quality.contact import ContactModel
+from grasp_quality.wrench import skew
 import numpy as np
 
 NEGLIGIBLE = 1e-6  # share of alpha below which a cap is worth nothing to the task
@@ -30,11 +32,42 @@ def friction_slope(grasp, h):
 
 
 def limit(worth, alpha):
-    """Index of the contact whose cap is worth most, of all (k,); None when none is."""
+    """Index of the limit that is worth most, of contacts (and joints behind); None for none."""
     best = int(np.argmax(worth))
     return best if worth[best] > NEGLIGIBLE * max(alpha, 1e-300) else None
 
 
+def name_of(grasp, i):
+    """Name of a contact, or of a joint counted on behind them; '' for None."""
+    if i is None:
+        return ''
+    return grasp.name_of(i) if i < len(grasp) else grasp.joint_limits.names[i - len(grasp)]
+
+
 def reason(grasp, h, i):
     """Tell whether friction is most of what a stronger press of contact i is worth."""
+    if i is None:
+        return ''
+    if i >= len(grasp):
+        return 'joint'
     return 'slip' if friction_worth(grasp, h)[i] >= abs(h[i, 2]) else 'cap'
+
+
+def local_worth(grasp, multiplier, joint_multiplier):
+    """Worth h (k, 4) of every contact's local force, from those of wrench (6,) and joints (j,)."""
+    # about the contacts' centre, where nothing cancels: a wrench's worth moves like a velocity
+    worth = multiplier.copy()
+    worth[:3] += skew(worth[3:]) @ grasp.center
+    h = (worth @ grasp.centered_matrix.reshape(6, -1)).reshape(-1, 4)
+    if grasp.joint_limits is None:
+        return h
+    return h - np.einsum('j,jki->ki', joint_multiplier, grasp.joint_limits.torque_matrix)
+
+
+def dimensional_multiplier(problem, multiplier):
+    """Turn a scaled lambda (6,) into d alpha / d F_ext about the object frame's origin."""
+    grasp = problem.grasp
+    worth = multiplier * (problem.virtual.unit / grasp.force_scale)
+    worth[3:] /= grasp.lever_arm
+    worth[:3] -= skew(worth[3:]) @ grasp.center
+    return frozen(worth)

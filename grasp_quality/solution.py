@@ -16,8 +16,7 @@ from grasp_quality import sensitivity
 from grasp_quality.arrays import frozen
 from grasp_quality.force_center import ForceCenter
 from grasp_quality.grasp import Grasp
-from grasp_quality.proof import Proof
-from grasp_quality.wrench import skew
+from grasp_quality.proof import NO_JOINTS, Proof
 import numpy as np
 
 NO_FORCES = frozen(np.zeros((0, 4)))
@@ -63,6 +62,8 @@ class Solution:
         Evidence; None when infeasible.
     multiplier : (6,) array
         lambda = d alpha / d F_ext [1/N, 1/(N m)].
+    joint_multiplier : (j,) array [1/(N m)]
+        Signed worth of each joint's torque; empty without joint limits.
     barrier_weight : float
         eps of eq. (11); in the unit of alpha.
     center : ForceCenter or None
@@ -84,6 +85,7 @@ class Solution:
     multiplier: np.ndarray
     bound_multiplier: np.ndarray
     reference_forces: np.ndarray
+    joint_multiplier: np.ndarray
     barrier_weight: float = 0.0
     center: ForceCenter = None
 
@@ -122,36 +124,43 @@ class Solution:
         slope = sensitivity.friction_slope(self.grasp, self._local_multipliers)
         return frozen(self.reference_forces[:, 2] * slope)
 
+    @property
+    def dalpha_dmax_torque(self):
+        """Return the slope of the largest alpha by each joint's tau_max (j,) [1/(N m)]."""
+        return np.abs(self.joint_multiplier)
+
+    @property
+    def joint_torques(self):
+        """Motor torques T x + tau_g (j,) [N m] of the forces; (0,) when infeasible."""
+        limits = self.grasp.joint_limits
+        return limits.torques(self.forces) if self.feasible and limits else NO_JOINTS
+
     @cached_property
     def limiting_contact(self):
-        """Name of the contact whose cap is worth most to the task; '' when none is."""
-        return self.grasp.name_of(self._limit) if self._limit is not None else ''
+        """Name of the contact, or joint, whose limit is worth most to the task; '' for none."""
+        return sensitivity.name_of(self.grasp, self._limit)
 
     @cached_property
     def limiting_reason(self):
         """
-        Why that contact limits the task: 'slip', 'cap', or '' when none does.
+        Why that one limits the task: 'slip', 'cap', 'joint', or '' when none does.
 
         A stronger press is worth h_n + |friction part| at the contact: 'slip' when most of it
         comes through friction, so that more friction would help as well.
 
         """
-        if self._limit is None:
-            return ''
         return sensitivity.reason(self.grasp, self._local_multipliers, self._limit)
 
     @cached_property
     def _limit(self):
         worth = self.dalpha_dmax_force * self.grasp.max_normal_forces
+        if self.grasp.joint_limits is not None:
+            worth = np.append(worth, self.dalpha_dmax_torque * self.grasp.joint_limits.max_torques)
         return sensitivity.limit(worth, self.alpha)
 
     @cached_property
     def _local_multipliers(self):
-        """G_i^T lambda of every contact (k, 4)."""
-        # about the contacts' centre, where nothing cancels: a wrench's worth moves like a velocity
-        grasp, worth = self.grasp, self.multiplier.copy()
-        worth[:3] += skew(worth[3:]) @ grasp.center
-        return (worth @ grasp.centered_matrix.reshape(6, -1)).reshape(-1, 4)
+        return sensitivity.local_worth(self.grasp, self.multiplier, self.joint_multiplier)
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,12 +240,3 @@ class WrenchMap:
     alpha: np.ndarray
     feasible: np.ndarray
     forces: np.ndarray = None
-
-
-def dimensional_multiplier(problem, multiplier):
-    """Turn a scaled lambda (6,) into d alpha / d F_ext about the object frame's origin."""
-    grasp = problem.grasp
-    worth = multiplier * (problem.virtual.unit / grasp.force_scale)
-    worth[3:] /= grasp.lever_arm
-    worth[:3] -= skew(worth[3:]) @ grasp.center
-    return frozen(worth)

@@ -14,10 +14,10 @@ from grasp_quality import clarabel_solver, friction_cone, kernel_solver
 from grasp_quality.arrays import frozen
 from grasp_quality.bounds import gauge
 from grasp_quality.exceptions import SolverError
-from grasp_quality.proof import (
-    GAP_TOLERANCE, held, infeasibility_margin, INFEASIBILITY_TOLERANCE, prove)
-from grasp_quality.solution import (
-    ConeSolution, dimensional_multiplier, NO_FORCES, NO_USAGE, Solution, Status)
+from grasp_quality.infeasibility import infeasibility_margin, INFEASIBILITY_TOLERANCE
+from grasp_quality.proof import GAP_TOLERANCE, held, NO_JOINTS, prove
+from grasp_quality.sensitivity import dimensional_multiplier
+from grasp_quality.solution import ConeSolution, NO_FORCES, NO_USAGE, Solution, Status
 from grasp_quality.time_limit import TimeLimit
 import numpy as np
 
@@ -66,7 +66,8 @@ def prove_optimal(problem, time_limit_s=None):
                 return optimum
             said.append(f'{answer.status} with {optimum.proof}')
         else:  # whatever the solver calls it, a direction that separates proves infeasibility
-            margin = infeasibility_margin(problem, answer.multipliers[:6])
+            margin = infeasibility_margin(
+                problem, problem.layout.worths(answer.multipliers))
             if margin > INFEASIBILITY_TOLERANCE:
                 return None
             said.append(f'{answer.status} with margin {margin:.2g}')
@@ -86,8 +87,14 @@ def _optimum(problem, answer):
     grasp, role = problem.grasp, problem.virtual.role
     values, shares = answer.values, answer.shares
     # the solver holds the equations to its tolerance only; the bound shall hold exactly
-    pressed = shares[:, 2] + (values[0] if role == 'pressing' else 0.0)
-    used = gauge(pressed, grasp.bound, grasp.groups)
+    press = values[0] if role == 'pressing' else 0.0
+    used = gauge(shares[:, 2] + press, grasp.bound, grasp.groups)
+    if grasp.joint_limits is not None:
+        excess = grasp.joint_rows.shrinkage(shares, press)
+        if role == 'widening':
+            shares, used = shares / excess, used / excess
+        else:
+            used = max(used, excess)
     if role == 'widening':
         values = np.array([used])
     elif used > 1.0:
@@ -125,7 +132,7 @@ def solve(problem, time_limit_s=None):
         return infeasible(kind, grasp)
     proof, unit = optimum.proof, virtual.unit
     alpha, wrench = task_share(problem, optimum.values, proof.upper * unit)
-    loaded = bool(problem.external_wrench.any())
+    loaded = bool(problem.external_wrench.any()) or not grasp.rests
     lower, holdable = _lower_end(problem, alpha, time_limit_s) if loaded else (0.0, True)
     # without a load only alpha = 0 can come of a wrench that the grasp does not span
     suspect = loaded or alpha <= GAP_TOLERANCE * proof.size * unit
@@ -139,7 +146,7 @@ def solve(problem, time_limit_s=None):
         forces=forces, cone_usage=frozen(np.where(is_loaded, proof.cone_usage, 0.0)),
         proof=proof, multiplier=dimensional_multiplier(problem, proof.multiplier),
         bound_multiplier=frozen(proof.bound_multiplier * unit),
-        reference_forces=forces)
+        reference_forces=forces, joint_multiplier=_joint_multiplier(problem, proof))
 
 
 def task_share(problem, values, alpha_upper):
@@ -154,7 +161,15 @@ def infeasible(kind, grasp):
         grasp=grasp, status=Status.INFEASIBLE, alpha=0.0, alpha_upper=0.0, alpha_lower=0.0,
         holdable=False, pinned=False, wrench=NO_WRENCH, forces=NO_FORCES, cone_usage=NO_USAGE,
         proof=None, multiplier=NO_WRENCH, bound_multiplier=frozen(np.zeros(len(grasp))),
-        reference_forces=NO_FORCES)
+        reference_forces=NO_FORCES, joint_multiplier=frozen(
+            np.zeros(len(grasp.joint_limits or ()))))
+
+
+def _joint_multiplier(problem, proof):
+    """Return d alpha / d tau of each joint (j,) [1/(N m)], signed."""
+    joints = problem.grasp.joint_rows
+    return NO_JOINTS if joints is None else frozen(
+        proof.joint_multiplier * (problem.virtual.unit / joints.units))
 
 
 def _lower_end(problem, alpha, time_limit_s):

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The core against the same problems stated in CVXPY; ``python -m benchmarks`` asks 1,000."""
 
-from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
+import dataclasses
+
+from benchmarks.random_grasps import BOUNDS, random_grasp, random_joint_limits, random_load
 import cvxpy as cp
 from grasp_quality import evaluate, force_closure, minimum_forces, reference, TaskCone, TaskWrench
 from known_grasps import antipodal, FX, FY, FZ, three_finger
@@ -70,6 +72,40 @@ def test_force_closure(bound):
         stated = reference.state_force_closure(grasp)
         assert stated.solve()
         assert force_closure(grasp).margin == pytest.approx(float(stated.value.value), abs=SOLVER)
+
+
+@pytest.mark.parametrize('bound', BOUNDS)
+@pytest.mark.parametrize('gravity', [0.3, 0.9, 1.2])
+def test_joint_limits(bound, gravity):
+    """Also of a hand that must lean on the object to carry itself."""
+    outcomes = set()
+    for seed in range(12):
+        rng = np.random.default_rng(seed)
+        grasp = random_grasp(rng, bound=bound)
+        load, wrench = random_load(rng, grasp), rng.normal(size=6)
+        grasp = dataclasses.replace(
+            grasp, joint_limits=random_joint_limits(
+                rng, grasp, 10.0 ** rng.uniform(-1.0, 0.5), gravity))
+        for task in (TaskWrench(wrench), TaskCone(
+                *rng.normal(size=(3, 6)), rng.uniform(0.1, 1.2), surface_samples=0)):
+            solution = evaluate(grasp, task, external_wrench=load)
+            state = reference.state_task_cone if isinstance(task, TaskCone) else (
+                lambda *given: reference.state_task_wrench(given[0], wrench, load))
+            stated = state(grasp, task, load)
+            assert stated.solve() == solution.feasible
+            outcomes.add(solution.feasible)
+            if solution.feasible:
+                assert solution.alpha == pytest.approx(
+                    np.ravel(stated.value.value)[0], abs=SOLVER)
+        stated = reference.state_minimum_forces(grasp, load)
+        peak = minimum_forces(grasp, load).peak
+        assert stated.solve() == np.isfinite(peak)
+        if np.isfinite(peak):
+            assert peak == pytest.approx(float(stated.value.value), abs=SOLVER)
+        stated = reference.state_force_closure(grasp)
+        assert force_closure(grasp).margin == pytest.approx(
+            float(stated.value.value) if stated.solve() else 0.0, abs=SOLVER)
+    assert outcomes == {True, False}
 
 
 def test_the_reference_knows_the_closed_forms_too():

@@ -4,7 +4,7 @@
 
 import dataclasses
 
-from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
+from benchmarks.random_grasps import BOUNDS, random_grasp, random_joint_limits, random_load
 from grasp_quality import Contact, ContactModel, evaluate, Grasp, TaskWrench
 from known_grasps import antipodal, FX, FY, single, three_finger
 import numpy as np
@@ -34,7 +34,14 @@ def with_field(grasp, i, field, step):
     contacts = list(grasp.contacts)
     contacts[i] = dataclasses.replace(
         contacts[i], normal=None, **{field: getattr(contacts[i], field) + step})
-    return Grasp(contacts, grasp.bound)
+    return Grasp(contacts, grasp.bound, grasp.joint_limits)
+
+
+def with_torque(grasp, j, step):
+    """Return the grasp with the limit of joint j changed by a step."""
+    limits = grasp.joint_limits
+    return dataclasses.replace(grasp, joint_limits=dataclasses.replace(
+        limits, max_torques=limits.max_torques + step * np.eye(len(limits))[j]))
 
 
 @pytest.mark.parametrize('seed', range(5))
@@ -54,6 +61,32 @@ def test_derivatives_agree_with_central_differences(bound, seed):
         expected += [central(lambda h: alpha(with_field(grasp, i, field, h), load))
                      for i in range(len(grasp))]
     assert found == pytest.approx(np.array(expected), abs=AGREEMENT * np.abs(found).max())
+
+
+@pytest.mark.parametrize('seed', range(5))
+@pytest.mark.parametrize('bound', BOUNDS)
+def test_derivatives_with_joint_limits_agree_with_central_differences(bound, seed):
+    grasp, task, load = problem(seed, bound)
+    grasp = dataclasses.replace(grasp, joint_limits=random_joint_limits(
+        np.random.default_rng(seed), grasp, tightness=1.0))
+    solution = evaluate(grasp, task, external_wrench=load)
+    assert solution.alpha > 1e-3
+
+    def alpha(g, w):
+        return evaluate(g, task, external_wrench=w).alpha
+
+    found = np.concatenate([
+        solution.dalpha_dexternal_wrench, solution.dalpha_dmax_force, solution.dalpha_dfriction,
+        solution.dalpha_dmax_torque])
+    expected = [central(lambda h: alpha(grasp, load + h * axis)) for axis in np.eye(6)]
+    for field in ('max_normal_force', 'friction'):
+        expected += [central(lambda h: alpha(with_field(grasp, i, field, h), load))
+                     for i in range(len(grasp))]
+    expected += [central(lambda h: alpha(with_torque(grasp, j, h), load), 0.1)
+                 for j in range(len(grasp.joint_limits))]
+    assert found == pytest.approx(np.array(expected), abs=AGREEMENT * np.abs(found).max())
+    assert (solution.limiting_reason == 'joint') == (
+        solution.limiting_contact in grasp.joint_limits.names)
 
 
 def test_antipodal_pair_by_hand():
