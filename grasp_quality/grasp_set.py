@@ -120,9 +120,10 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
     def of(cls, grasps: Iterable[Grasp]) -> GraspSet:
         """Stack Grasp objects."""
         grasps = list(grasps)
-        strangers = [g for g in grasps if not isinstance(g, Grasp)]
+        strangers = [g for g in grasps if not isinstance(g, Grasp) or g.joint_limits]
         if strangers:
-            raise InvalidGraspError(f'grasps must be Grasp objects, got {strangers[0]!r}')
+            raise InvalidGraspError(
+                f'grasps must be Grasp objects without joint_limits, got {strangers[0]!r}')
         if not grasps:
             raise InvalidGraspError('evaluating many grasps needs at least one, got none')
         scales = np.concatenate([g.scales for g in grasps])
@@ -208,6 +209,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
             M, where nothing but the task or the load varies.
 
         """
+        cls.of([grasp])  # refuses what a set does not know
         k, old = len(grasp), grasp.contacts
         given = [np.shape(a) for a in (positions, normals, friction, torsional_friction,
                                        max_normal_force) if a is not None]

@@ -120,6 +120,14 @@ def check_limits(limits: JointLimits | None, contact_names: Sequence[str]) -> No
                                 'limiting_contact would not tell them apart')
 
 
+def refuse_limits(limits: JointLimits | None, who: str) -> None:
+    """Refuse joint limits where they would be passed over in silence."""
+    if limits is not None:
+        raise InvalidGraspError(
+            f'{who} does not know joint limits: ask evaluate() about each grasp, or leave '
+            'joint_limits out')
+
+
 @dataclass(frozen=True, eq=False)
 class JointRows:
     """

@@ -18,6 +18,7 @@ from grasp_quality.arrays import frozen
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp
+from grasp_quality.joint_limits import refuse_limits
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -151,6 +152,7 @@ def draw(grasp: Grasp, load: Array, noise: Uncertainty, samples: int,
     iterator of Variants
 
     """
+    refuse_limits(grasp.joint_limits, 'an uncertain grasp')
     k = len(grasp)
     generator = np.random.default_rng(seed)
     for begin in range(0, samples, AT_ONCE):

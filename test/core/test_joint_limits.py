@@ -6,8 +6,8 @@ import dataclasses
 
 from benchmarks.random_grasps import BOUNDS, random_grasp, random_joint_limits, random_load
 from grasp_quality import (
-    evaluate, force_closure, InvalidGraspError, JointLimits, minimum_forces, Status, TaskWrench,
-    wrench_map)
+    evaluate, evaluate_many, force_closure, GraspSet, hold_forces, InvalidGraspError, JointLimits,
+    minimum_forces, robust_alpha, Status, TaskWrench, wrench_map)
 from grasp_quality.proof import JOINT_TOLERANCE
 from known_grasps import antipodal, FX, FY, single
 import numpy as np
@@ -193,3 +193,25 @@ def test_arrays_are_copied_and_read_only():
     with pytest.raises(ValueError, match='read-only'):
         limits.max_torques[0] = 2.0
     assert limits.gravity_torques == pytest.approx([0.0], abs=CLOSED_FORM)
+
+
+def test_who_does_not_know_joint_limits_says_so():
+    grasp = limited(antipodal(), ['knuckle'], [0.03], RIGHT_PRESSES)
+    with pytest.raises(InvalidGraspError, match='joint_limits'):
+        evaluate_many([grasp], FX)
+    with pytest.raises(InvalidGraspError, match='joint_limits'):
+        GraspSet.varied(grasp, friction=np.full((3, 2), 0.4))
+    with pytest.raises(InvalidGraspError, match='joint limits'):
+        robust_alpha(grasp, TaskWrench(FX), friction_noise=0.1)
+
+
+def test_holding_forces_keep_off_the_limits():
+    """Both fingers press alike, in the middle between slip, caps and the joint's limit."""
+    free = hold_forces(antipodal(), -0.05 * FY)
+    grasp = limited(antipodal(), ['knuckle'], [0.03], RIGHT_PRESSES)
+    held = hold_forces(grasp, -0.05 * FY)
+    assert held.status is Status.OPTIMAL
+    assert held.forces[0, 2] == pytest.approx(held.forces[1, 2], rel=SOLVER)
+    assert held.forces[1, 2] < 0.3 < free.forces[1, 2]
+    assert grasp.joint_limits.usage(held.forces).max() < 1.0
+    assert hold_forces(grasp, -0.4 * FY).status is Status.INFEASIBLE

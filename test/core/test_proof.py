@@ -6,13 +6,12 @@ import dataclasses
 
 from answer_checks import support_of_wrenches
 from benchmarks.random_grasps import BOUNDS, random_grasp, random_load
-from grasp_quality import (
-    build_problem, clarabel_solver, evaluate, SolverError, TaskCone, TaskWrench)
+from grasp_quality import build_problem, clarabel_solver, SolverError, TaskWrench
 from grasp_quality.problem import assemble, VirtualContact
-from grasp_quality.proof import infeasibility_margin, prove, worth_of
+from grasp_quality.proof import prove, worth_of
 from grasp_quality.raw_answer import RawAnswer
 from grasp_quality.solve import prove_optimal
-from known_grasps import antipodal, FX, FY, three_finger
+from known_grasps import antipodal, FY, three_finger
 import numpy as np
 import pytest
 from tolerances import CLOSED_FORM, SOLVER
@@ -91,33 +90,6 @@ def test_worth_is_the_support_function_of_the_wrenches():
         physical[:3] -= np.cross(physical[3:], grasp.center)
         assert total == pytest.approx(support_of_wrenches(grasp, physical), rel=CLOSED_FORM)
         assert (per_contact >= 0.0).all()
-
-
-def test_infeasibility_is_a_distance():
-    """Two fingers with mu = 0.5 carry one newton across; the load is 1.5."""
-    problem = build_problem(antipodal(0.5), TaskWrench(FX), external_wrench=-1.5 * FY)
-    reach = problem.reach
-    assert infeasibility_margin(problem, FY) == pytest.approx(0.5 / reach, rel=CLOSED_FORM)
-    assert infeasibility_margin(problem, FY + 0.3 * FX) <= 0.5 / reach
-    assert infeasibility_margin(problem, -FY) < 0.0
-
-
-@pytest.mark.parametrize('direction', [
-    np.zeros(6), np.full(6, np.nan), np.full(6, np.inf), np.full(6, 1e300), np.full(6, 5e-324)])
-def test_infeasibility_is_not_proved_by_rubbish(direction):
-    problem = build_problem(antipodal(0.5), TaskWrench(FX), external_wrench=-0.5 * FY)
-    assert not infeasibility_margin(problem, direction) > 0.0
-
-
-@pytest.mark.parametrize('task', [
-    TaskWrench(FY), TaskCone(FY, FX, 0.4 * FX, 0.9), TaskCone(FY, 3.0 * FY, FX, 0.3)])
-def test_a_feasible_load_is_never_proved_infeasible(task):
-    """Along any direction, with a task that could help: the load alone exceeds the grasp."""
-    problem = build_problem(antipodal(0.5), task, external_wrench=1.5 * FY)
-    assert evaluate(antipodal(0.5), task, external_wrench=1.5 * FY).alpha > 0.5
-    rng = np.random.default_rng(0)
-    for _ in range(300):
-        assert infeasibility_margin(problem, rng.normal(size=6)) <= 1e-12
 
 
 def test_unproved_answers_end_as_an_error(monkeypatch):
