@@ -185,7 +185,7 @@ class JointRows:
 
     def shrinkage(self, shares: Array, press: float = 0.0) -> float:
         """
-        Divisor >= 1 that brings forces inside the limits that exceed them by a solver's inaccuracy.
+        Divisor >= 1 that brings forces back which exceed limits by a solver's inaccuracy.
 
         On the way from y to no force at all the torque goes straight to that of gravity, which
         has to be inside itself.

@@ -4,9 +4,10 @@
 Where each variable and each equation of the conic program stands.
 
 A layout depends on the contacts' models, the groups of the force bound, the number of joints and
-the kind of virtual contact, not on any number, and is made once for each such pattern. Variables, in order: slacks of
-the groups and of the joint limits, a single virtual variable, frictionless normals (all non-negative), one second-order
-cone a contact, the cone of the virtual contact, and for the l2 bound the cone of all normals.
+the kind of virtual contact, not on any number, and is made once for each such pattern. Variables,
+in order: slacks of the groups and of the joint limits, a single virtual variable, frictionless
+normals (all non-negative), one second-order cone a contact, the cone of the virtual contact, and
+for the l2 bound the cone of all normals.
 """
 
 from dataclasses import dataclass

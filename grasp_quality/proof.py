@@ -3,11 +3,12 @@
 """
 The proof that goes with every answer, computed apart from the solver, in plain numpy.
 
-From any multipliers (lambda for equilibrium, nu for the bound, mu for joints) weak duality gives an upper bound
-of the objective, once they are made exactly feasible: nu is recomputed from lambda through the
-support functions of the cones, and both are scaled until the virtual contact's condition holds
-(docs/derivations.md). From the forces come the equilibrium residual, the largest cone usage and
-the use of the bound. An answer counts only when ``Proof.holds``.
+From any multipliers (lambda for equilibrium, nu for the bound, mu for the joints) weak duality
+gives an upper bound of the objective, once they are made exactly feasible: nu is recomputed from
+lambda and mu through the support functions of the cones, and all are scaled until the virtual
+contact's condition holds (docs/derivations.md). From the forces come the equilibrium residual, the
+largest cone usage and the use of the bound and of the joints' limits. An answer counts only when
+``Proof.holds``.
 """
 
 from dataclasses import dataclass
