@@ -7,10 +7,10 @@ Build: a grasp and a task as one conic program in standard form.
 
 u holds, for every contact, its force as shares [t1/mu, t2/mu, n, m_n/gamma] / f_max in a standard
 second-order cone (or a half line when it is frictionless), the slacks of the force bound and of
-the joints' limits, and the task. The task is a virtual contact (the paper, section IV): its columns
-stand with a minus sign beside the grasp matrix. The first six equations are the equilibrium
-G x + F_ext = alpha F, about the contacts' centre, in shares of lever arm and largest cap; then comes
-the bound, and last the joints' limits |T x + tau_g| <= tau_max, two equations a joint.
+the joints' limits, and the task. The task is a virtual contact (the paper, section IV): its
+columns stand with a minus sign beside the grasp matrix. The first six equations are the
+equilibrium G x + F_ext = alpha F, about the contacts' centre, in shares of lever arm and largest
+cap; then comes the bound, and last the joints' limits |T x + tau_g| <= tau_max, two each.
 
 Which variable stands where depends on the contact models and the bound only, so ``layout`` caches
 it; building is then one gather of numbers. Nothing here knows of a solver.
