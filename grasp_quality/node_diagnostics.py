@@ -36,6 +36,8 @@ class Monitor:
                         'measured slip margin': f'{quality.measured_slip_margin:.4g}'
                         if quality.slip_measured else 'not measured',
                         'limiting contact': quality.limiting_contact}
+        if quality.quantile_computed:
+            self._values['alpha quantile'] = f'{quality.alpha_quantile:.6g}'
         self._note(quality.result)
 
     def count_failure(self, result, error):

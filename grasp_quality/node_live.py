@@ -13,6 +13,7 @@ import time
 from grasp_quality.governing import governing
 from grasp_quality.measures import evaluate
 from grasp_quality.node_inputs import measured_margin
+from grasp_quality.node_quantile import live_quantile
 from grasp_quality_msgs.msg import GraspQuality
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
 from msg_adapters.results import error_result, status_result
@@ -69,15 +70,20 @@ class LiveLoop:
         solve_time = time.perf_counter() - started
         solution, wrench = governing(task, solution)
         margin = measured_margin(scene)
+        quantile, reason = {}, ''
+        if solution.feasible:
+            left = min(limit - solve_time, settings.max_contact_age - self._inputs.age_s())
+            quantile, reason = live_quantile(scene, task, load, settings, left)
+        result = status_result(solution.status, pinned=solution.pinned)
+        result.message = result.message or reason
         quality = GraspQuality(
-            header=Header(stamp=scene.stamp, frame_id=scene.frame),
-            result=status_result(solution.status, pinned=solution.pinned),
+            header=Header(stamp=scene.stamp, frame_id=scene.frame), result=result,
             task_wrench=to_wrench(wrench),
             alpha=solution.alpha, alpha_upper=solution.alpha_upper,
             alpha_lower=solution.alpha_lower, holdable=solution.holdable,
             friction_margin=solution.friction_margin, limiting_contact=solution.limiting_contact,
             contact_age=to_duration(self._inputs.age_s()), solve_time=to_duration(solve_time),
-            slip_measured=margin is not None, measured_slip_margin=margin or 0.0)
+            slip_measured=margin is not None, measured_slip_margin=margin or 0.0, **quantile)
         return quality, (solution.forces, solution.cone_usage), load
 
     def _task_and_load(self, scene):

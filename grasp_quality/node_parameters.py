@@ -14,7 +14,10 @@ import enum
 
 from grasp_quality.bounds import BOUNDS
 from grasp_quality.contact import ContactModel
+from grasp_quality.robust import CONFIDENCE
+from grasp_quality.sample_statistics import fewest_samples
 from grasp_quality.task import TaskWrench
+from grasp_quality.uncertainty import LARGEST_POSITION, LARGEST_TILT, Uncertainty
 from msg_adapters.contacts import ContactDefaults
 from msg_adapters.topic_names import names_a_topic, TOPIC_RULE
 
@@ -63,6 +66,12 @@ class Settings:
     marker_rate: float = 20.0
     marker_force_scale: float = 0.0
     display_time_share: float = 0.05
+    quantile_samples: int = 0
+    quantile_level: float = 0.05
+    contact_noise: float = 0.0
+    normal_noise: float = 0.0
+    friction_noise: float = 0.0
+    load_noise: tuple = ()
     autostart: bool = True
 
     def __post_init__(self):
@@ -89,6 +98,19 @@ class Settings:
                 f'contact_names, got {list(self.contact_fingers)}')
         if self.task_wrench:
             TaskWrench(self.task_wrench)
+        self._check_uncertainty()
+
+    def _check_uncertainty(self):
+        if not 0.0 < self.quantile_level < 1.0:
+            raise ValueError(
+                f'quantile_level must be between 0 and 1 exclusive, got {self.quantile_level}')
+        Uncertainty(self.contact_noise, self.normal_noise, self.friction_noise,
+                    self.load_noise or 0.0, contacts=1)
+        fewest = fewest_samples(self.quantile_level, CONFIDENCE)
+        if 0 < self.quantile_samples < fewest:
+            raise ValueError(
+                f'quantile_samples must be 0 (off) or at least {fewest} for the quantile_level '
+                f'{self.quantile_level:g}, got {self.quantile_samples}')
 
     @property
     def contact_defaults(self):
@@ -143,6 +165,19 @@ TABLE = {
                            'the size of the grasp', (0.0, LARGE), False),
     'display_time_share': (Type.DOUBLE, 'Share of the time that goes into the force map while '
                            'somebody watches it [-]', (1e-3, 1.0), False),
+    'quantile_samples': (Type.INTEGER, 'Grasps drawn for alpha_quantile of the live loop; 0: it '
+                         'is off', (0, 1_000_000), False),
+    'quantile_level': (Type.DOUBLE, 'Level of the quantile of alpha: the share of grasps that may '
+                       'apply less [-]', (0.0, 1.0), False),
+    'contact_noise': (Type.DOUBLE, 'Standard deviation of every coordinate of the contact points '
+                      '[m], for alpha_quantile', (0.0, LARGEST_POSITION), False),
+    'normal_noise': (Type.DOUBLE, 'Standard deviation of the tilt of the contact normals about '
+                     'each tangent [rad], for alpha_quantile', (0.0, LARGEST_TILT), False),
+    'friction_noise': (Type.DOUBLE, 'Standard deviation of the friction coefficients [-], for '
+                       'alpha_quantile', (0.0, 100.0), False),
+    'load_noise': (Type.DOUBLE_ARRAY, 'Standard deviations of the external wrench fx fy fz [N] tx '
+                   'ty tz [N m] in the object frame, for alpha_quantile; not set: none', None,
+                   False),
     'autostart': (Type.BOOL, 'Configure and activate at start', None, True),
 }
 

@@ -13,6 +13,7 @@ import time
 from grasp_quality.directions import force_grid
 from grasp_quality.holding import minimum_forces
 from grasp_quality.measures import evaluate, wrench_map
+from grasp_quality.robust import robust_alpha
 from grasp_quality.solution import Status
 from grasp_quality_msgs import srv
 from msg_adapters.errors import InvalidMessageError, NotActiveError
@@ -21,6 +22,7 @@ from msg_adapters.results import error_result, status_result
 from msg_adapters.stamps import to_duration
 from msg_adapters.tasks import (
     cone_task, live_task, load_from, polytope_task, wrench_rows, wrench_task)
+from msg_adapters.uncertainty import fill_robust_alpha, noise_from, sampling_from
 from msg_adapters.wrenches import to_wrench
 from std_msgs.msg import Header
 
@@ -41,6 +43,7 @@ class Services:
                 (srv.EvaluateTaskPolytope, self.evaluate_task_polytope),
                 (srv.MinimumForces, self.minimum_forces),
                 (srv.WrenchMap, self.wrench_map),
+                (srv.RobustAlpha, self.robust_alpha),
                 (srv.SetTask, self.set_task)):
             node.create_service(kind, f'~/{handler.__name__}', self._bounded(handler))
 
@@ -152,6 +155,15 @@ class Services:
                 f'resolution must give at most {settings.max_request_size} directions (parameter '
                 f'max_request_size), got {steps}, which gives {2 * steps ** 2}')
         return force_grid(steps)
+
+    def robust_alpha(self, request, response):
+        """Answer the quantile of alpha under uncertain contacts, friction and load."""
+        grasp, _, transform, load = self._question(request)
+        settings = self._settings()
+        sampling = sampling_from(request, settings.quantile_level, settings.max_request_size)
+        fill_robust_alpha(response, robust_alpha(
+            grasp, wrench_task(request.task_wrench, transform), load, **noise_from(request),
+            **sampling, time_limit_s=settings.solver_time_limit))
 
     def set_task(self, request, response):
         """Set task and load of the live loop, once they are known to be valid."""

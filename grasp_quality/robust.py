@@ -10,24 +10,28 @@ solver could prove, counts as alpha 0, so that every error is to the safe side.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from grasp_quality.arrays import checked_number, frozen
-from grasp_quality.batch import solve_wrenches
 from grasp_quality.exceptions import InvalidTaskError, SolverError, SolverTimeoutError
 from grasp_quality.grasp import Grasp
+from grasp_quality.grasp_set import GraspSet
+from grasp_quality.many import evaluate_many, Outcome
 from grasp_quality.problem import build_problem, NO_WRENCH
 from grasp_quality.sample_statistics import quantile_interval, wilson_interval
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskCone, TaskPolytope, TaskWrench
 from grasp_quality.time_limit import TimeLimit
-from grasp_quality.uncertainty import draw, Uncertainty, Variants
+from grasp_quality.uncertainty import draw, Uncertainty
 from grasp_quality.wrench import as_wrench
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
+Task: TypeAlias = TaskWrench | TaskCone | TaskPolytope
 
 MOST_SAMPLES = 1_000_000
+CONFIDENCE = 0.95  # of intervals, unless said otherwise
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,11 +70,11 @@ class RobustAlpha:
 
 
 def robust_alpha(
-        grasp: Grasp, task: TaskWrench | TaskCone | TaskPolytope,
+        grasp: Grasp, task: Task,
         external_wrench: ArrayLike | None = None, *, contact_noise: ArrayLike = 0.0,
         normal_noise: ArrayLike = 0.0, friction_noise: ArrayLike = 0.0,
         load_noise: ArrayLike = 0.0, samples: int = 1000,
-        quantile: float | Sequence[float] = 0.05, confidence: float = 0.95, seed: int = 0,
+        quantile: float | Sequence[float] = 0.05, confidence: float = CONFIDENCE, seed: int = 0,
         time_limit_s: float | None = None) -> RobustAlpha:
     """
     Tell how alpha is distributed when contacts, friction and load are not known exactly.
@@ -120,7 +124,11 @@ def robust_alpha(
     sure = checked_number(confidence, 'confidence', InvalidTaskError, above=0.0, below=1.0)
     count = _whole(samples, 'samples', 1, MOST_SAMPLES)
     quantile_interval(np.zeros(count), max(levels), sure)  # are they enough?
-    parts = [_alphas(variants, task, limit) for variants in draw(
+    if not isinstance(task, (TaskWrench, TaskCone, TaskPolytope)):
+        raise InvalidTaskError(
+            f'task must be a TaskWrench, TaskCone or TaskPolytope, got {type(task).__name__}: '
+            'give an ellipsoid as the TaskPolytope of the ends of its axes')
+    parts = [_alphas(grasps, loads, task, limit) for grasps, loads in draw(
         grasp, load, noise, count, _whole(seed, 'seed', 0, 2 ** 64 - 1))]
     alpha = np.concatenate([part[0] for part in parts])
     ordered = np.sort(alpha)
@@ -155,31 +163,32 @@ def _whole(value: int, name: str, least: int, most: int) -> int:
     return int(value)
 
 
-def _alphas(variants: Variants, task: TaskWrench | TaskCone | TaskPolytope,
+def _alphas(grasps: GraspSet, loads: Array, task: Task,
             limit: TimeLimit | None) -> tuple[Array, int, int]:
-    """Alpha (N,) of every variant, and how many are infeasible and unproved."""
-    alpha, infeasible, unproved = np.zeros(len(variants)), 0, 0
-    for i in range(len(variants)):
+    """Alpha (N,) of every sample, and how many are infeasible and unproved."""
+    if isinstance(task, TaskCone):
+        alpha, status = _cone_alphas(grasps, loads, task, limit)
+    else:
+        wrenches = task.wrenches if isinstance(task, TaskPolytope) else task.wrench[None]
+        answer = evaluate_many(grasps, wrenches[:, None], loads, time_limit_s=limit)
+        alpha, status = answer.alpha.min(axis=0), answer.status
+    unproved = (status == Outcome.UNPROVED).any(axis=0)
+    infeasible = (status == Outcome.INFEASIBLE).any(axis=0) & ~unproved
+    return (np.where(unproved | infeasible, 0.0, alpha), int(infeasible.sum()),
+            int(unproved.sum()))
+
+
+def _cone_alphas(grasps: GraspSet, loads: Array, cone: TaskCone,
+                 limit: TimeLimit | None) -> tuple[Array, NDArray[np.int8]]:
+    """Alpha_z (N,) and outcome (1, N) of a task cone, one solve after the other."""
+    alpha = np.zeros(len(grasps))
+    status = np.full((1, len(grasps)), Outcome.UNPROVED, dtype=np.int8)
+    for i, grasp in enumerate(grasps):
         try:
-            value = _one(variants.grasp(i), task, variants.loads[i], limit)
+            solution = solve(build_problem(grasp, cone, loads[i]), limit)
         except SolverTimeoutError:
             raise
         except SolverError:
-            unproved += 1
             continue
-        infeasible += value is None
-        alpha[i] = value or 0.0
-    return alpha, infeasible, unproved
-
-
-def _one(grasp: Grasp, task: TaskWrench | TaskCone | TaskPolytope, load: Array,
-         limit: TimeLimit | None) -> float | None:
-    if isinstance(task, TaskPolytope):
-        batch = solve_wrenches(grasp, task.wrenches, load, limit)
-        return float(batch.alpha.min()) if batch.feasible.all() else None
-    if not isinstance(task, (TaskWrench, TaskCone)):
-        raise InvalidTaskError(
-            f'task must be a TaskWrench, TaskCone or TaskPolytope, got {type(task).__name__}: '
-            'give an ellipsoid as the TaskPolytope of the ends of its axes')
-    solution = solve(build_problem(grasp, task, load), limit)
-    return float(solution.alpha) if solution.feasible else None
+        alpha[i], status[0, i] = solution.alpha, Outcome[solution.status.name]
+    return alpha, status

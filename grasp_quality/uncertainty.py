@@ -14,10 +14,9 @@ draws, and more samples begin with the fewer.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from grasp_quality.arrays import frozen
-from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp
+from grasp_quality.grasp_set import GraspSet
 from grasp_quality.joint_limits import refuse_limits
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -90,49 +89,10 @@ def _deviations(value: ArrayLike, name: str, length: int, largest: float) -> Arr
     return spread
 
 
-@dataclass(frozen=True, eq=False)
-class Variants:
-    """
-    Grasps that differ in numbers only, N of them.
-
-    Attributes
-    ----------
-    base : Grasp
-        What they are variants of: contact models, caps, names, bound.
-    positions : (N, k, 3) array [m]
-    rotations : (N, k, 3, 3) array
-        R_object_contact.
-    friction : (N, k) array [-]
-    torsional_friction : (N, k) array [m]
-    loads : (N, 6) array [N, N m]
-        External wrench about the object frame's origin.
-
-    """
-
-    base: Grasp
-    positions: Array
-    rotations: Array
-    friction: Array
-    torsional_friction: Array
-    loads: Array
-
-    def __len__(self) -> int:
-        """Count the variants."""
-        return len(self.loads)
-
-    def grasp(self, index: int) -> Grasp:
-        """Return one variant as a Grasp."""
-        contacts = self.base.contacts
-        return Grasp(ContactSet(
-            self.positions[index], self.rotations[index], contacts.models, self.friction[index],
-            self.torsional_friction[index], contacts.max_normal_forces, contacts.names,
-            contacts.fingers), self.base.bound)
-
-
 def draw(grasp: Grasp, load: Array, noise: Uncertainty, samples: int,
-         seed: int) -> Iterator[Variants]:
+         seed: int) -> Iterator[tuple[GraspSet, Array]]:
     """
-    Draw variants of a grasp, in chunks of at most ``AT_ONCE``.
+    Draw grasps and loads, in chunks of at most ``AT_ONCE``.
 
     Parameters
     ----------
@@ -149,7 +109,7 @@ def draw(grasp: Grasp, load: Array, noise: Uncertainty, samples: int,
 
     Returns
     -------
-    iterator of Variants
+    iterator of (GraspSet of n grasps, external wrenches (n, 6) [N, N m])
 
     """
     refuse_limits(grasp.joint_limits, 'an uncertain grasp')
@@ -158,23 +118,22 @@ def draw(grasp: Grasp, load: Array, noise: Uncertainty, samples: int,
     for begin in range(0, samples, AT_ONCE):
         count = min(AT_ONCE, samples - begin)
         normals = generator.standard_normal((count, 6 * k + 6))
-        contacts = normals[:, :6 * k].reshape(count, k, 6)
-        yield _variants(grasp, load, noise, contacts, normals[:, 6 * k:])
+        drawn = _varied(grasp, noise, normals[:, :6 * k].reshape(count, k, 6))
+        yield drawn, load + normals[:, 6 * k:] * np.asarray(noise.load)
 
 
-def _variants(grasp: Grasp, load: Array, noise: Uncertainty, contacts: Array,
-              loads: Array) -> Variants:
+def _varied(grasp: Grasp, noise: Uncertainty, draws: Array) -> GraspSet:
     mean = grasp.contacts
     position, normal = np.asarray(noise.position), np.asarray(noise.normal)
-    tilt = contacts[:, :, 3:5] * normal[:, None]
-    friction = np.maximum(mean.friction + contacts[:, :, 5] * np.asarray(noise.friction), 0.0)
+    friction = np.maximum(mean.friction + draws[:, :, 5] * np.asarray(noise.friction), 0.0)
     relative = np.divide(friction, mean.friction, where=mean.friction > 0.0,
                          out=np.ones(friction.shape))
-    return Variants(
-        grasp,
-        frozen(mean.positions + contacts[:, :, :3] * position[:, None]),
-        frozen(mean.rotations @ tilted(tilt)), frozen(friction),
-        frozen(relative * mean.torsional_friction), frozen(load + loads * np.asarray(noise.load)))
+    return GraspSet.of_arrays(
+        mean.positions + draws[:, :, :3] * position[:, None],
+        rotations=mean.rotations @ tilted(draws[:, :, 3:5] * normal[:, None]),
+        model=mean.models, friction=friction,
+        torsional_friction=relative * mean.torsional_friction,
+        max_normal_force=mean.max_normal_forces, bound=grasp.bound, fingers=mean.fingers)
 
 
 def tilted(angles: Array) -> Array:

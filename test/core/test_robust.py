@@ -9,6 +9,7 @@ from grasp_quality import (
     Contact, ContactModel, evaluate, Grasp, InvalidTaskError, robust_alpha, SolverTimeoutError,
     TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench)
 from grasp_quality.bounds import BOUNDS
+from grasp_quality.uncertainty import draw, Uncertainty
 from known_grasps import antipodal, cube_of_eight, FX, FY, FZ, single, three_finger, TX
 import numpy as np
 import pytest
@@ -121,13 +122,12 @@ def test_lengths_scale_out():
 @pytest.mark.parametrize('model', list(ContactModel))
 def test_samples_are_the_grasps_that_evaluate_solves(model):
     """Every sample by itself, for all models: alpha of the same draws."""
-    from grasp_quality.uncertainty import draw, Uncertainty
     grasp = Grasp([Contact(c.position, rotation=c.rotation, model=model, torsional_friction=0.05)
                    for c in cube_of_eight(0.5).contacts])
     task, load = TaskWrench(FX + 0.2 * TX), np.array(LOAD)
     answer = robust_alpha(grasp, task, load, load_noise=0.05, samples=30, seed=2, **NOISE)
-    part, = draw(grasp, load, Uncertainty(0.02, 0.05, 0.05, 0.05, 8), 30, 2)
-    single_answers = [evaluate(part.grasp(i), task, part.loads[i]).alpha for i in range(30)]
+    (drawn, loads), = draw(grasp, load, Uncertainty(0.02, 0.05, 0.05, 0.05, 8), 30, 2)
+    single_answers = [evaluate(drawn[i], task, loads[i]).alpha for i in range(30)]
     assert answer.alpha == pytest.approx(single_answers, rel=SOLVER, abs=SOLVER)
 
 

@@ -16,8 +16,11 @@ def variants(grasp, samples, seed=0, mean_load=0.0 * FZ, **noise):
     parts = list(draw(
         grasp, mean_load, Uncertainty(**{**QUIET, **noise}, contacts=len(grasp)), samples,
         seed))
-    return {name: np.concatenate([getattr(part, name) for part in parts]) for name in (
-        'positions', 'rotations', 'friction', 'torsional_friction', 'loads')}
+    drawn = {name: np.concatenate([getattr(part, name) for part, _ in parts]) for name in (
+        'positions', 'rotations', 'friction', 'torsional_friction')}
+    by_grasp = {name: rows.reshape(samples, len(grasp), *rows.shape[1:])
+                for name, rows in drawn.items()}
+    return {**by_grasp, 'loads': np.concatenate([loads for _, loads in parts])}
 
 
 def test_no_noise_changes_nothing_at_all():
@@ -71,14 +74,12 @@ def test_more_samples_begin_with_the_fewer_and_sizes_share_their_draws():
     assert (variants(grasp, 10, seed=4, position=0.1)['positions'] != few).all()
 
 
-def test_a_variant_is_a_grasp_with_its_numbers():
+def test_caps_and_bound_stay():
     grasp = antipodal(0.5, caps=(1.0, 2.0), bound='l1')
-    part, = draw(grasp, FZ, Uncertainty(0.1, 0.1, 0.1, 0.1, 2), 3, 0)
-    one = part.grasp(2)
-    assert len(part) == 3 and one.bound == 'l1' and one.names == ('left', 'right')
-    assert (one.positions == part.positions[2]).all()
-    assert (one.contacts.friction == part.friction[2]).all()
-    assert one.max_normal_forces.tolist() == [1.0, 2.0]
+    (drawn, loads), = draw(grasp, FZ, Uncertainty(0.1, 0.1, 0.1, 0.1, 2), 3, 0)
+    assert len(drawn) == len(loads) == 3
+    assert drawn.max_normal_forces.reshape(3, 2).tolist() == [[1.0, 2.0]] * 3
+    assert drawn.groups.tolist() == [0] * 6
 
 
 @pytest.mark.parametrize('field, value, words', [

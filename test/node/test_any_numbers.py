@@ -55,6 +55,9 @@ def test_any_request_is_answered_with_finite_numbers(client, seed):
             (srv.EvaluateTaskPolytope, 'evaluate_task_polytope', {
                 'task_wrenches': [task, wrench(fx=number(1.0))], 'weights': [number(1.0), 2.0]}),
             (srv.MinimumForces, 'minimum_forces', {}),
+            (srv.RobustAlpha, 'robust_alpha', {
+                'task_wrench': task, 'samples': 20, 'contact_noise': number(0.001),
+                'friction_noise': number(0.1), 'load_noise': wrench(fx=number(0.1))}),
             (srv.WrenchMap, 'wrench_map', {'directions': [task, wrench(fz=number(1.0))]})):
         answer = client.call(kind, name, contacts=contacts, external_wrench=load, **fields)
         assert answer.result.code != ResultCode.UNDEFINED

@@ -18,7 +18,8 @@ NAMES = {
     'friction_coefficient', 'torsional_friction_coefficient', 'max_normal_force', 'force_bound',
     'barrier_weight', 'task_wrench', 'min_contact_force', 'max_contact_age', 'solver_time_limit',
     'max_request_size', 'map_directions', 'marker_rate', 'marker_force_scale',
-    'display_time_share', 'autostart'}
+    'display_time_share', 'autostart', 'quantile_samples', 'quantile_level', 'contact_noise',
+    'normal_noise', 'friction_noise', 'load_noise'}
 ALONG_Y = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]
 
 

@@ -67,7 +67,7 @@ def live(**fields):
 NAMES = {
     srv.EvaluateTaskWrench: 'evaluate_task_wrench', srv.EvaluateTaskCone: 'evaluate_task_cone',
     srv.EvaluateTaskPolytope: 'evaluate_task_polytope', srv.MinimumForces: 'minimum_forces',
-    srv.WrenchMap: 'wrench_map', srv.SetTask: 'set_task'}
+    srv.RobustAlpha: 'robust_alpha', srv.WrenchMap: 'wrench_map', srv.SetTask: 'set_task'}
 
 
 def check_refusal(client, question, code, words):
