@@ -21,6 +21,7 @@ setup(
     install_requires=['setuptools', 'numpy', 'scipy', 'numba', 'clarabel'],
     extras_require={
         'cli': ['matplotlib', 'pyarrow', 'pyyaml', 'rich', 'rosbags', 'typer'],
+        'cluster': ['distributed'],
         'reference': ['cvxpy'], 'test': ['pytest', 'hypothesis', 'cvxpy']},
     zip_safe=True,
     author='The grasp_quality authors',

@@ -12,7 +12,7 @@ import importlib
 
 from benchmarks import document
 
-SECTIONS = ('speed', 'agreement', 'robustness', 'node')
+SECTIONS = ('speed', 'agreement', 'robustness', 'node', 'uncertainty', 'study')
 
 
 def main():

@@ -9,7 +9,7 @@ units and the rules.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias, TypeVar
@@ -18,7 +18,8 @@ from grasp_quality import (
     Contact, ContactModel, Grasp, GraspQualityError, TaskCone, TaskEllipsoid, TaskPolytope,
     TaskWrench)
 from grasp_quality.bounds import BOUNDS
-from grasp_quality_cli.yaml_source import FileError, load_yaml, YamlItem
+from grasp_quality_cli.source_item import FileError, SourceItem
+from grasp_quality_cli.yaml_source import load_yaml
 from msg_adapters.poses import rotation_matrix
 import numpy as np
 from numpy.typing import NDArray
@@ -73,34 +74,52 @@ def read_grasp_file(path: Path | str) -> GraspFile:
         Names file, line and field.
 
     """
-    source = load_yaml(path)
-    fields = source.fields(
-        ('bound', 'defaults', 'contacts', 'external_wrench', 'tasks'), required=('contacts',))
+    return read_grasp(load_yaml(path))
+
+
+def read_grasp(source: SourceItem, also: Sequence[str] = ()) -> GraspFile:
+    """
+    Read a grasp with its load and tasks, from a file or a row of a dataset.
+
+    Parameters
+    ----------
+    source : SourceItem
+        A mapping with the fields of a grasp file.
+    also : sequence of str
+        Further fields that may be there and are not read.
+
+    Raises
+    ------
+    FileError
+
+    """
+    known = ('bound', 'defaults', 'contacts', 'external_wrench', 'tasks')
+    fields = source.fields((*known, *also), required=('contacts',))
     defaults = _physics(fields['defaults'].fields(PHYSICS)) if 'defaults' in fields else {}
     contacts = [_contact(item, defaults) for item in fields['contacts'].items()]
     bound = fields['bound'].choice(tuple(BOUNDS)) if 'bound' in fields else 'linf'
     load = fields.get('external_wrench')
     tasks = fields['tasks'].named_items() if 'tasks' in fields else {}
     return GraspFile(
-        str(path), _made(fields['contacts'], lambda: Grasp(contacts, bound)),
+        source.file, _made(fields['contacts'], lambda: Grasp(contacts, bound)),
         None if load is None else load.numbers(6, WRENCH),
         {name: read_task(item) for name, item in tasks.items()})
 
 
-def read_task(item: YamlItem) -> Task:
+def read_task(item: SourceItem) -> Task:
     """Read one task: a mapping with exactly one of wrench, cone, polytope and ellipsoid."""
     fields = item.fields(KINDS)
     if len(fields) != 1:
         item.fail(f'must have exactly one of {", ".join(KINDS)}, got {len(fields)}')
     (kind, value), = fields.items()
-    readers: dict[str, Callable[[YamlItem], Task]] = {
+    readers: dict[str, Callable[[SourceItem], Task]] = {
         'wrench': lambda i: TaskWrench(i.numbers(6, WRENCH)), 'cone': _cone,
         'polytope': _polytope, 'ellipsoid': lambda i: TaskEllipsoid(
             _wrenches(i.fields(('axes',), required=('axes',))['axes']))}
     return _made(value, lambda: readers[kind](value))
 
 
-def _cone(item: YamlItem) -> Task:
+def _cone(item: SourceItem) -> Task:
     axes = ('axis', 'lateral_x', 'lateral_y')
     fields = item.fields((*axes, 'half_angle', 'surface_samples'), required=(*axes, 'half_angle'))
     samples = fields['surface_samples'].number() if 'surface_samples' in fields else 32.0
@@ -110,7 +129,7 @@ def _cone(item: YamlItem) -> Task:
     return TaskCone(axis, lateral_x, lateral_y, fields['half_angle'].number(), int(samples))
 
 
-def _polytope(item: YamlItem) -> Task:
+def _polytope(item: SourceItem) -> Task:
     fields = item.fields(('wrenches', 'weights'), required=('wrenches',))
     weights = fields.get('weights')
     return TaskPolytope(
@@ -118,11 +137,11 @@ def _polytope(item: YamlItem) -> Task:
         None if weights is None else np.array([w.number() for w in weights.items()]))
 
 
-def _wrenches(item: YamlItem) -> NDArray[np.float64]:
+def _wrenches(item: SourceItem) -> NDArray[np.float64]:
     return np.array([row.numbers(6, WRENCH) for row in item.items()]).reshape(-1, 6)
 
 
-def _physics(fields: Mapping[str, YamlItem]) -> dict[str, Any]:
+def _physics(fields: Mapping[str, SourceItem]) -> dict[str, Any]:
     """Read those of the fields model, friction, torsional_friction, max_normal_force."""
     found: dict[str, Any] = {
         name: item.number() for name, item in fields.items() if name in PHYSICS[1:]}
@@ -131,7 +150,7 @@ def _physics(fields: Mapping[str, YamlItem]) -> dict[str, Any]:
     return found
 
 
-def _contact(item: YamlItem, defaults: Mapping[str, Any]) -> Contact:
+def _contact(item: SourceItem, defaults: Mapping[str, Any]) -> Contact:
     fields = item.fields(CONTACT, required=('position',))
     frames = [name for name in FRAMES if name in fields]
     if len(frames) != 1:
@@ -145,7 +164,7 @@ def _contact(item: YamlItem, defaults: Mapping[str, Any]) -> Contact:
     return _made(item, lambda: Contact(position, **arguments), fields)
 
 
-def _frame(item: YamlItem, kind: str) -> dict[str, Any]:
+def _frame(item: SourceItem, kind: str) -> dict[str, Any]:
     if kind == 'normal':
         return {'normal': item.numbers(3, 'x y z, into the object')}
     if kind == 'rotation':
@@ -157,8 +176,8 @@ def _frame(item: YamlItem, kind: str) -> dict[str, Any]:
     return {'rotation': _made(item, lambda: rotation_matrix(quaternion, 'it'))}
 
 
-def _made(item: YamlItem, make: Callable[[], Made],
-          fields: Mapping[str, YamlItem] | None = None) -> Made:
+def _made(item: SourceItem, make: Callable[[], Made],
+          fields: Mapping[str, SourceItem] | None = None) -> Made:
     """Make an object of the core; its complaint gets the line of the field that it names."""
     try:
         return make()

@@ -9,7 +9,9 @@ import sys
 
 from grasp_quality import GraspQualityError, SolverError
 from grasp_quality_cli.evaluate import evaluate_grasp
-from grasp_quality_cli.output import EPILOG, NOT_SOLVED, WRONG_INPUT
+from grasp_quality_cli.output import EPILOG, NOT_SOLVED, STOPPED, WRONG_INPUT
+from grasp_quality_cli.study import study
+from grasp_quality_cli.study_error import StoppedError
 import typer
 
 HELP = """
@@ -25,6 +27,7 @@ app = typer.Typer(
     add_completion=False, help=HELP, epilog=EPILOG,
     context_settings={'help_option_names': ['-h', '--help']})
 app.command('evaluate', epilog=EPILOG)(evaluate_grasp)
+app.command('study', epilog=EPILOG)(study)
 
 
 @app.callback()
@@ -40,6 +43,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return exc.code if isinstance(exc.code, int) else int(exc.code is not None)
     except SolverError as exc:
         return _failed(exc, NOT_SOLVED)
+    except StoppedError as exc:
+        return _failed(exc, STOPPED)
     except (GraspQualityError, OSError) as exc:
         return _failed(exc, WRONG_INPUT)
     return 0

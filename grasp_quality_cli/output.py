@@ -9,13 +9,16 @@ import json
 import math
 from typing import Any
 
-INFEASIBLE = 1  # answered, and the answer is no (or: a bag was read in part only)
+INFEASIBLE = 1  # answered, and the answer is no
+READ_IN_PART = 1  # a bag or a dataset has parts that could not be read
 WRONG_INPUT = 2  # as for a wrong option
 NOT_SOLVED = 3
+STOPPED = 4  # a study before its end
 
 EPILOG = (
-    'Exit codes: 0 answered; 1 infeasible, or a bag that could be read in part only; 2 wrong '
-    'input, with file and line; 3 no answer could be proved.')
+    'Exit codes: 0 answered; 1 infeasible, or a bag or dataset that could be read in part only; '
+    '2 wrong input, with file and line; 3 no answer could be proved; 4 a study stopped before its '
+    'end, to go on with the same command.')
 
 
 def print_json(row: Mapping[str, Any]) -> None:

@@ -9,24 +9,16 @@ do no more than be wrong.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 from pathlib import Path
-from typing import NoReturn
 
-from grasp_quality.exceptions import GraspQualityError
-import numpy as np
-from numpy.typing import NDArray
+from grasp_quality_cli.source_item import FileError, SourceItem, WHOLE
 import yaml  # type: ignore[import-untyped]
 
 
-class FileError(GraspQualityError, ValueError):
-    """A file breaks a rule; the text names file, line, field, rule and value."""
-
-
 @dataclass(frozen=True)
-class YamlItem:
+class YamlItem(SourceItem):
     """
     One value of a YAML file.
 
@@ -44,42 +36,24 @@ class YamlItem:
     name: str
     node: yaml.Node
 
-    def fail(self, rule: str) -> NoReturn:
-        """Raise the FileError of this value: it must be so, but is not."""
-        raise FileError(f'{self.file}:{self.line}: {self.name} {rule}')
-
     @property
     def line(self) -> int:
         """Line in the file, from 1."""
         return int(self.node.start_mark.line) + 1
 
-    def fields(self, allowed: Sequence[str], required: Sequence[str] = ()) -> dict[str, YamlItem]:
-        """Read a mapping whose keys are among ``allowed``."""
-        found = self.named_items()
-        for key, item in found.items():
-            if key not in allowed:
-                item.fail(f'is not known here; known are {", ".join(allowed)}')
-        for key in required:
-            if key not in found:
-                self.fail(f'must have the field {key}; known are {", ".join(allowed)}')
-        return found
-
-    def named_items(self) -> dict[str, YamlItem]:
+    def named_items(self) -> dict[str, SourceItem]:
         """Read a mapping with keys of the user's choice."""
         if not isinstance(self.node, yaml.MappingNode):
             self.fail(f'must be a mapping (name: value), got {self._got()}')
-        found: dict[str, YamlItem] = {}
+        found: dict[str, SourceItem] = {}
         for key, value in self.node.value:
-            item = YamlItem(self.file, self._below(str(key.value)), value)
+            item = YamlItem(self.file, self.below(str(key.value)), value)
             if str(key.value) in found:
                 item.fail('is given twice')
             found[str(key.value)] = item
         return found
 
-    def _below(self, key: str) -> str:
-        return key if self.name == 'file' else f'{self.name}.{key}'
-
-    def items(self) -> list[YamlItem]:
+    def items(self) -> list[SourceItem]:
         """Read a list."""
         if not isinstance(self.node, yaml.SequenceNode):
             self.fail(f'must be a list, got {self._got()}')
@@ -102,20 +76,6 @@ class YamlItem:
         if not math.isfinite(value):
             self.fail(f'must be a finite number, got {text!r}')
         return value
-
-    def numbers(self, count: int, meaning: str) -> NDArray[np.float64]:
-        """Read a list of so many numbers; ``meaning`` says which, such as fx fy fz."""
-        items = self.items()
-        if len(items) != count:
-            self.fail(f'must hold {count} numbers ({meaning}), got {len(items)}')
-        return np.array([item.number() for item in items])
-
-    def choice(self, choices: Sequence[str]) -> str:
-        """Read one of several words."""
-        text = self.text()
-        if text not in choices:
-            self.fail(f'must be one of {", ".join(choices)}, got {text!r}')
-        return text
 
     def _got(self) -> str:
         if isinstance(self.node, yaml.ScalarNode):
@@ -148,4 +108,4 @@ def load_yaml(path: Path | str) -> YamlItem:
         raise FileError(f'{path}: is not YAML: {exc}') from exc
     if node is None:
         raise FileError(f'{path}:1: is empty')
-    return YamlItem(str(path), 'file', node)
+    return YamlItem(str(path), WHOLE, node)
