@@ -14,6 +14,7 @@ from grasp_quality.governing import governing
 from grasp_quality.measures import evaluate
 from grasp_quality.node_inputs import measured_margin
 from grasp_quality.node_quantile import live_quantile
+from grasp_quality.problem import NO_WRENCH
 from grasp_quality_msgs.msg import GraspQuality
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
 from msg_adapters.results import error_result, status_result
@@ -79,6 +80,7 @@ class LiveLoop:
         quality = GraspQuality(
             header=Header(stamp=scene.stamp, frame_id=scene.frame), result=result,
             task_wrench=to_wrench(wrench),
+            external_wrench=to_wrench(NO_WRENCH if load is None else load),
             alpha=solution.alpha, alpha_upper=solution.alpha_upper,
             alpha_lower=solution.alpha_lower, holdable=solution.holdable,
             friction_margin=solution.friction_margin, limiting_contact=solution.limiting_contact,

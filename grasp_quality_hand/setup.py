@@ -26,6 +26,7 @@ setup(
         'console_scripts': [
             'demo = grasp_quality_hand.demo:main',
             'fetch_dclaw = grasp_quality_hand.fetch_dclaw:main',
+            'force_audit = grasp_quality_hand.force_audit_node:main',
             'simulated_hand = grasp_quality_hand.simulated_hand_node:main',
         ],
     },

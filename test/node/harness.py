@@ -99,6 +99,14 @@ def start_node(log, namespace, *arguments, **parameters):
     return Process(command, log)
 
 
+def start_audit(log, namespace):
+    """Start the independent check of all forces that the node in a namespace publishes."""
+    prefix = Path(get_package_prefix('grasp_quality_hand'))
+    return Process(
+        [prefix / 'lib' / 'grasp_quality_hand' / 'force_audit', '--ros-args', '-r',
+         f'__ns:={namespace}', '-p', f'target:={namespace}/grasp_quality'], log)
+
+
 class Client:
     """A ROS node with context and executor of its own, that talks to the node in a namespace."""
 

@@ -23,8 +23,8 @@ def ros_log_dir(tmp_path_factory):
 
 @pytest.fixture(scope='module')
 def start(tmp_path_factory):
-    """Start nodes with parameters; each has a namespace, a process and a client."""
-    from harness import Client, start_node
+    """Start nodes with parameters; each has a namespace, a process, a client and an auditor."""
+    from harness import Client, start_audit, start_node
 
     begun = []
 
@@ -32,9 +32,12 @@ def start(tmp_path_factory):
         namespace = f'/hand_{next(NUMBERS)}'
         log = tmp_path_factory.mktemp('node') / 'log.txt'
         process = start_node(log, namespace, *arguments, **parameters)
-        begun.append(SimpleNamespace(namespace=namespace, process=process, client=None))
+        begun.append(SimpleNamespace(
+            namespace=namespace, process=process, client=None,
+            audit=start_audit(log.with_name('audit.txt'), namespace)))
         # a participant that is there before the node's endpoints are learns of them 2 s later
         process.until_it_says('active')
+        begun[-1].audit.until_it_says('listening')
         begun[-1].client = Client(namespace)
         return begun[-1]
 
@@ -46,3 +49,4 @@ def start(tmp_path_factory):
             assert node.process.end() == 0, node.process.log()
         assert 'internal error' not in node.process.log()
         assert 'Traceback' not in node.process.log()
+        assert node.audit.end() == 0, node.audit.log()

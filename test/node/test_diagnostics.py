@@ -22,7 +22,9 @@ def report(client):
     heard = client.listen(DiagnosticArray, '/diagnostics')
 
     def wait(condition, feed=None):
-        found = client.fresh(heard, lambda m: condition(values(m)), 'a report', feed)
+        found = client.fresh(
+            heard, lambda m: m.status[0].name.endswith('live loop') and condition(values(m)),
+            'a report', feed)
         assert found.header.stamp.sec > 0
         return found.status[0]
     return wait

@@ -1,0 +1,157 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a quality node received and published, put together again by stamp and judged.
+
+Topics arrive in any order, one stamp may be evaluated more than once (a new task), and parameters
+change between a sample and its answer. So a force set is judged ``GRACE_S`` after it came: it must
+pass with one combination of contacts and quality of its own stamp and parameters of its moment.
+What cannot be judged because a part never came (best effort topics may lose one) is counted apart.
+"""
+
+from collections import deque
+from dataclasses import dataclass, field
+import itertools
+from typing import TypeVar
+
+from grasp_quality_hand.audit_parts import (
+    Contacts, Forces, limits_of, LocalWrench, Quality, Settings)
+from grasp_quality_hand.force_rules import broken_balance, broken_forces, SMALL
+import numpy as np
+
+Part = TypeVar('Part')
+
+GRACE_S = 1.0    # after which all that belongs to a message has come
+PATIENCE_S = 20.0  # for the first parameters
+MEMORY_S = 4.0   # parts older than this are forgotten
+MOST_TRIED = 200  # combinations of parts of one stamp
+MOST = 20_000    # parts of one kind that are kept, whatever their age
+
+
+@dataclass
+class Count:
+    """Force sets judged, and those that a missing part kept from being judged."""
+
+    judged: int = 0
+    unjudged: dict[str, int] = field(default_factory=dict)
+    violations: int = 0
+
+
+class ForceRecords:
+    """Collects parts with ``store`` and gives the violations that are certain by ``judge``."""
+
+    def __init__(self, allowance_s: float = 0.05) -> None:
+        self._allowance_s = allowance_s
+        self._patience_s = np.inf
+        self._kept: dict[type, deque[tuple[float, object]]] = {}
+        self._waiting: deque[tuple[float, object]] = deque()
+        self.count = Count()
+
+    def store(self, part: object, now_s: float) -> None:
+        """Keep a part (a class of audit_parts, or a float for alpha) with its arrival time."""
+        kept = self._kept.setdefault(type(part), deque(maxlen=MOST))
+        if isinstance(part, Settings) and kept and kept[-1][1] == part:
+            kept.pop()
+        kept.append((now_s, part))
+        self._patience_s = min(self._patience_s, now_s + PATIENCE_S)
+        if isinstance(part, (Forces, Quality, LocalWrench, float)):
+            self._waiting.append((now_s, part))
+
+    def judge(self, now_s: float) -> list[str]:
+        """Judge all that has waited long enough, and for the parameters; return what is wrong."""
+        said: list[str] = []
+        if not self._kept.get(Settings) and now_s < self._patience_s:
+            return said
+        while self._waiting and self._waiting[0][0] <= now_s - GRACE_S:
+            arrived_s, part = self._waiting.popleft()
+            said += self._judge(arrived_s, part)
+        for kept in self._kept.values():
+            while len(kept) > 1 and kept[0][0] < now_s - MEMORY_S:  # the newest holds on
+                kept.popleft()
+        self.count.violations += len(said)
+        return said
+
+    def _judge(self, arrived_s: float, part: object) -> list[str]:
+        if isinstance(part, Quality):
+            numbers = (part.alpha, *part.others)
+            if not np.isfinite(numbers).all():
+                return [f'quality is not finite: {numbers}']
+            if not part.optimal and any(numbers):
+                return [f'quality is not OPTIMAL and yet holds {numbers}']
+        elif isinstance(part, float):
+            known = [quality.alpha for quality in self._parts(Quality) if quality.optimal]
+            if part != 0.0 and known and part not in known:
+                return [f'alpha {part:.9g} stands in no OPTIMAL quality']
+        elif isinstance(part, Forces):
+            return self._judge_forces(arrived_s, part) if part.forces else []
+        elif isinstance(part, LocalWrench) and part.wrench.any():
+            return self._judge_local(arrived_s, part)
+        return []
+
+    def _parts(self, kind: type[Part]) -> list[Part]:
+        return [part for _, part in self._kept.get(kind, ()) if isinstance(part, kind)]
+
+    def _settings(self, arrived_s: float) -> list[Settings]:
+        """Return those in force at some time from two grace times before to one after."""
+        ends = [since_s for since_s, _ in self._kept.get(Settings, ())][1:] + [np.inf]
+        return [settings for end_s, settings in zip(ends, self._parts(Settings))
+                if end_s >= arrived_s - 2 * GRACE_S]
+
+    def _judge_forces(self, arrived_s: float, part: Forces) -> list[str]:
+        settings = self._settings(arrived_s)
+        contacts = list({  # a frozen sensor says the same again and again
+            c.content: c for c in self._parts(Contacts) if c.stamp == part.stamp}.values())
+        qualities = list({
+            q.content: q for q in self._parts(Quality) if q.stamp == part.stamp}.values())
+        in_frame = [c for c in contacts if c.frame in ('', part.frame)]
+        for name, found in (('parameters', settings), ('contacts', contacts),
+                            ('quality', qualities), ('transform', in_frame)):
+            if not found:
+                return self._leave(name)
+        best: list[str] | None = None
+        tried = itertools.product(in_frame[::-1], qualities[::-1], settings[::-1])
+        for parts in itertools.islice(tried, MOST_TRIED):
+            said = _wrong(part, *parts, self._allowance_s)
+            if best is None or len(said) < len(best):
+                best = said
+            if not best:
+                break
+        if best and next(tried, None):  # one stamp for everything, as when nothing is stamped
+            return self._leave('stamp of its own')
+        self.count.judged += 1
+        return [f'forces of stamp {part.stamp}: {text}' for text in best or ()]
+
+    def _leave(self, missing: str) -> list[str]:
+        self.count.unjudged[missing] = self.count.unjudged.get(missing, 0) + 1
+        return []
+
+    def _judge_local(self, arrived_s: float, part: LocalWrench) -> list[str]:
+        sets = [forces for forces in self._parts(Forces) if forces.stamp == part.stamp]
+        contacts = [c for c in self._parts(Contacts) if c.stamp == part.stamp]
+        settings = self._settings(arrived_s)
+        if not sets or not contacts or not settings:
+            return []
+        for forces, received, own in itertools.product(sets, contacts, settings):
+            limits = limits_of(received, own)
+            for force in forces.forces:
+                if force.name == part.name and force.name in limits:
+                    R, cap = limits[force.name].R, limits[force.name].cap
+                    local = np.concatenate([R.T @ force.wrench[:3], R.T @ force.wrench[3:]])
+                    if np.abs(local - part.wrench).max() <= SMALL * cap:
+                        return []
+        return [f'optimal_wrenches/{part.name} of stamp {part.stamp} is not the force beside it']
+
+
+def _wrong(part: Forces, contacts: Contacts, quality: Quality, settings: Settings,
+           allowance_s: float) -> list[str]:
+    said = []
+    if not quality.optimal:
+        said.append('the quality beside them is not OPTIMAL')
+    if part.age_s is not None and part.age_s > settings.max_contact_age + allowance_s:
+        said.append(f'sent {part.age_s:.4f} s after their contacts, max_contact_age is '
+                    f'{settings.max_contact_age:g} s')
+    limits = limits_of(contacts, settings)
+    said += broken_forces(part.forces, limits, settings.force_bound)
+    if said:
+        return said
+    return broken_balance(part.forces, limits, quality.alpha * quality.task - quality.load)

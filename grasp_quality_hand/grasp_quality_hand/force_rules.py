@@ -1,0 +1,155 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What must hold of every set of contact forces that a quality node publishes, in plain numpy.
+
+Written a second time from docs/conventions.md on purpose: nothing here comes from the core or from
+the adapters, so that a mistake there does not hide itself. All functions return sentences, one for
+each rule that is broken.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+BALANCE = 1e-6  # of the caps' sum; torques over the largest distance from the contacts' mean
+CONE = 1e-6     # of a cone usage or a use of the bound
+PLACE = 1e-9    # of positions [m, relative above one] and unit normals [-]
+SMALL = 1e-6    # share of the cap below which a contact counts as not loaded
+
+
+@dataclass(frozen=True)
+class Limits:
+    """
+    What one contact may carry.
+
+    Parameters
+    ----------
+    position : (3,) array [m]
+    R : (3, 3) array
+        Axes of the contact frame in the object frame; the third is the inward normal.
+    friction, torsional_friction, cap : float [-], [m], [N]
+        0 where the contact model has none.
+    finger : str
+
+    """
+
+    position: Array
+    R: Array
+    friction: float
+    torsional_friction: float
+    cap: float
+    finger: str
+
+
+@dataclass(frozen=True)
+class Force:
+    """
+    What a node says that one contact shall do to the object.
+
+    Parameters
+    ----------
+    name : str
+    position, normal : (3,) arrays [m], [-]
+    wrench : (6,) array [N, N m]
+        Of the finger on the object, in the axes of the object frame, about position.
+    cone_usage : float
+
+    """
+
+    name: str
+    position: Array
+    normal: Array
+    wrench: Array
+    cone_usage: float
+
+
+def broken_forces(forces: Sequence[Force], limits: Mapping[str, Limits], bound: str) -> list[str]:
+    """Tell what is wrong with each force by itself, and with all of them under the bound."""
+    said = []
+    if len({force.name for force in forces}) < len(forces):
+        said.append('a contact has two forces')
+    use: dict[str, list[float]] = {}
+    for force in forces:
+        numbers = np.concatenate([force.position, force.normal, force.wrench, [force.cone_usage]])
+        if not np.isfinite(numbers).all():
+            said.append(f'{force.name}: not finite: {numbers.tolist()}')
+        elif force.name not in limits:
+            said.append(f'{force.name}: no such contact was received')
+        else:
+            own = limits[force.name]
+            said += [f'{force.name}: {text}' for text in _broken_force(force, own)]
+            share = float(force.wrench[:3] @ own.R[:, 2]) / own.cap
+            use.setdefault(own.finger if bound == 'finger' else force.name, []).append(share)
+    order = {'linf': np.inf, 'finger': np.inf, 'l1': 1, 'l2': 2}[bound]
+    used = float(np.linalg.norm([sum(group) for group in use.values()] or [0.0], order))
+    if used > 1.0 + CONE:
+        said.append(f'{used:.9g} of the bound {bound} is used')
+    return said
+
+
+def _broken_force(force: Force, own: Limits) -> list[str]:
+    said = []
+    far = np.abs(force.position - own.position).max()
+    if far > PLACE * max(1.0, float(np.abs(own.position).max())):
+        said.append(f'its point is {far:.3g} m from where the contact was received')
+    if np.abs(force.normal - own.R[:, 2]).max() > PLACE:
+        said.append('its normal is not that of the contact received')
+    local, moment = own.R.T @ force.wrench[:3], own.R.T @ force.wrench[3:]
+    n, small = float(local[2]), SMALL * own.cap
+    if n < -CONE * own.cap:
+        said.append(f'it pulls with {-n:.6g} N')
+    if np.abs(moment[:2]).max() > small:
+        said.append('it has a moment that is not about the normal')
+    carried = np.array([local[0], local[1], moment[2]])
+    coefficient = np.array([own.friction, own.friction, own.torsional_friction])
+    if (np.abs(carried[coefficient == 0.0]) > small).any():
+        said.append('it carries what its contact model cannot')
+        return said
+    parts = np.divide(carried, coefficient, out=np.zeros(3), where=coefficient > 0.0)
+    norm = float(np.linalg.norm(parts))
+    if norm > n * (1.0 + CONE) + CONE * small:
+        said.append(f'it lies outside its friction cone: {norm:.9g} N where {n:.9g} N are carried')
+    if n > 10.0 * small and abs(norm / n - force.cone_usage) > CONE:
+        said.append(f'its cone usage is {norm / n:.9g}, not {force.cone_usage:.9g}')
+    return said
+
+
+def broken_balance(
+        forces: Sequence[Force], limits: Mapping[str, Limits], wanted: Array) -> list[str]:
+    """
+    Tell whether the forces do not add up to the wanted wrench.
+
+    Parameters
+    ----------
+    forces : sequence of Force
+        At least one.
+    limits : mapping of names to Limits
+        Of all these forces.
+    wanted : (6,) array [N, N m]
+        alpha times the task, less the external wrench, about the object frame's origin.
+
+    """
+    points = np.array([force.position for force in forces])
+    center = points.mean(axis=0)
+    total = np.zeros(6)
+    for force in forces:
+        total[:3] += force.wrench[:3]
+        total[3:] += force.wrench[3:] + np.cross(force.position - center, force.wrench[:3])
+    missing = wanted - total
+    missing[3:] -= np.cross(center, wanted[:3])
+    caps = sum(limits[force.name].cap for force in forces)
+    arm = max(float(np.linalg.norm(points - center, axis=1).max()),
+              max(limits[force.name].torsional_friction for force in forces))
+    arm = arm or max(1.0, float(np.abs(center).max()))
+    # numbers about an origin that is far away carry the rounding of that distance
+    size = caps + float(np.abs(wanted[:3]).max())
+    rounding = 1e-14 * size * float(np.abs(points).max()) / arm
+    left = float(np.linalg.norm(np.concatenate([missing[:3], missing[3:] / arm])))
+    if not left <= BALANCE * size + rounding:
+        return [f'{left:.6g} N are missing to alpha task - external wrench (caps {caps:.6g} N)']
+    return []

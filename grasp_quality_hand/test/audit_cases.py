@@ -1,0 +1,31 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""Two fingers that lift 6 N between them, correct to the last digit, for the audit to judge."""
+
+import dataclasses
+
+from grasp_quality_hand.audit_parts import (
+    Contacts, Forces, LocalWrench, Quality, ReceivedContact, Settings)
+from grasp_quality_hand.force_rules import Force
+import numpy as np
+
+SETTINGS = Settings('PCWF', 0.5, 0.005, 10.0, 'linf', ('left', 'right'), (), 0.1)
+LEFT = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])   # third column +x
+RIGHT = np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])  # third column -x
+STAMP = 1_000_000_000
+LEFT_FORCE = Force('left', np.array([-0.02, 0.0, 0.0]), LEFT[:, 2],
+                   np.array([6.0, 0.0, 3.0, 0.0, 0.0, 0.0]), 1.0)
+RIGHT_FORCE = Force('right', np.array([0.02, 0.0, 0.0]), RIGHT[:, 2],
+                    np.array([-6.0, 0.0, 3.0, 0.0, 0.0, 0.0]), 1.0)
+CONTACTS = Contacts(STAMP, 'object', [
+    ReceivedContact(LEFT_FORCE.position, LEFT), ReceivedContact(RIGHT_FORCE.position, RIGHT)],
+    are_poses=True)
+QUALITY = Quality(STAMP, True, 3.0, (3.0, 0.0, 0.0), np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
+                  np.array([0.0, 0.0, -3.0, 0.0, 0.0, 0.0]))
+FORCES = Forces(STAMP, 'object', [LEFT_FORCE, RIGHT_FORCE], 0.01)
+LOCAL = LocalWrench(STAMP, 'left', np.array([-3.0, 0.0, 6.0, 0.0, 0.0, 0.0]))
+
+
+def changed(part, **fields):
+    """Return a part with other values in some fields."""
+    return dataclasses.replace(part, **fields)

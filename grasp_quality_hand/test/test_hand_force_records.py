@@ -1,0 +1,114 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""The audit joins parts by stamp in any order, and judges only what it has seen whole."""
+
+import itertools
+
+from audit_cases import changed, CONTACTS, FORCES, LOCAL, QUALITY, RIGHT_FORCE, SETTINGS
+from grasp_quality_hand.audit_parts import limits_of
+from grasp_quality_hand.force_records import ForceRecords, GRACE_S, PATIENCE_S
+import numpy as np
+import pytest
+
+ALL = (SETTINGS, CONTACTS, QUALITY, FORCES, 3.0, LOCAL)
+LATER = changed(RIGHT_FORCE, wrench=RIGHT_FORCE.wrench * 1.001)
+
+
+def judged(*parts, **options):
+    """Store parts, let time pass and return (violations, count)."""
+    records = ForceRecords(**options)
+    for i, part in enumerate(parts):
+        records.store(part, 1e-3 * i)
+    return records.judge(2.0 * GRACE_S) + records.judge(2.0 * PATIENCE_S), records.count
+
+
+@pytest.mark.parametrize('parts', itertools.islice(itertools.permutations(ALL), 0, None, 37))
+def test_the_order_of_arrival_does_not_matter(parts):
+    said, count = judged(*parts)
+    assert said == [] and count.judged == 1 and not count.unjudged
+
+
+def test_nothing_is_judged_before_its_grace_is_over():
+    records = ForceRecords()
+    for part in ALL:
+        records.store(part, 0.0)
+    assert records.judge(0.9 * GRACE_S) == [] and records.count.judged == 0
+
+
+@pytest.mark.parametrize('missing', [SETTINGS, CONTACTS, QUALITY])
+def test_what_lacks_a_part_is_counted_and_not_judged(missing):
+    said, count = judged(*[part for part in ALL if part is not missing])
+    assert said == [] and count.judged == 0 and sum(count.unjudged.values()) == 1
+
+
+@pytest.mark.parametrize('part, words', [
+    (changed(FORCES, forces=[FORCES.forces[0], LATER]), 'of stamp'),
+    (changed(FORCES, age_s=0.2), 'after their contacts'),
+    (changed(QUALITY, optimal=False, alpha=0.0, others=(0.0,)), 'not OPTIMAL'),
+    (changed(QUALITY, optimal=False), 'not OPTIMAL and yet holds'),
+    (changed(QUALITY, alpha=2.9), 'are missing'),
+    (changed(QUALITY, load=np.zeros(6)), 'are missing'),
+    (changed(QUALITY, others=(np.nan, 0.0)), 'not finite'),
+    (changed(LOCAL, wrench=-LOCAL.wrench), 'is not the force beside it'),
+    (changed(SETTINGS, friction_coefficient=0.49), 'outside its friction cone'),
+    (changed(SETTINGS, max_normal_force=5.9), 'of the bound')])
+def test_a_false_part_is_a_violation(part, words):
+    parts = [part if type(part) is type(other) else other for other in ALL]
+    said, count = judged(*parts)
+    assert any(words in text for text in said), said
+    assert count.violations == len(said)
+
+
+def test_an_alpha_of_no_quality_is_a_violation():
+    said, _ = judged(*ALL, 4.0)
+    assert said == ['alpha 4 stands in no OPTIMAL quality']
+
+
+def test_a_stamp_evaluated_twice_passes_with_either_quality():
+    said, count = judged(*ALL, changed(QUALITY, alpha=1.5, task=2.0 * QUALITY.task), FORCES)
+    assert said == [] and count.judged == 2
+
+
+def test_parameters_of_the_moment_count_whichever_came_first():
+    said, _ = judged(changed(SETTINGS, max_normal_force=5.0), *ALL)
+    assert said == []
+    said, _ = judged(*ALL, changed(SETTINGS, max_normal_force=5.0))
+    assert said == []
+
+
+def test_another_frame_needs_a_transform_that_is_not_known_here():
+    _, count = judged(*[changed(CONTACTS, frame='world') if p is CONTACTS else p for p in ALL])
+    assert count.unjudged == {'transform': 1}
+
+
+def test_memory_is_bounded_by_time():
+    records = ForceRecords()
+    for i in range(3_000):
+        for part in ALL:
+            stamped = changed(part, stamp=i) if hasattr(part, 'stamp') else part
+            records.store(stamped, 0.01 * i)
+        records.judge(0.01 * i)
+    assert max(len(kept) for kept in records._kept.values()) < 500
+    assert records.count.violations == 0 and records.count.judged > 2_800
+
+
+def test_a_frozen_sensor_is_judged_like_any_other():
+    said, count = judged(SETTINGS, *[CONTACTS, QUALITY, FORCES] * 300)
+    assert said == [] and count.judged == 300
+
+
+def test_where_nothing_has_a_stamp_of_its_own_nothing_false_is_said():
+    many = [changed(CONTACTS, contacts=[
+        changed(contact, position=contact.position + 1e-3 * i) for contact in CONTACTS.contacts])
+        for i in range(1, 300)]
+    said, count = judged(SETTINGS, CONTACTS, *many, QUALITY, FORCES)
+    assert said == [] and count.unjudged == {'stamp of its own': 1}
+
+
+def test_defaults_fill_what_messages_leave_open():
+    limits = limits_of(changed(CONTACTS, are_poses=False), changed(
+        SETTINGS, contact_model='SFCE', contact_fingers=('a', 'b')))
+    assert list(limits) == ['contact_0', 'contact_1']
+    assert (limits['contact_0'].friction, limits['contact_0'].torsional_friction) == (0.5, 0.005)
+    assert limits['contact_1'].finger == 'contact_1'
+    assert limits_of(CONTACTS, changed(SETTINGS, contact_model='FPC'))['left'].friction == 0.0
