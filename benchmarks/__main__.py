@@ -12,7 +12,7 @@ import importlib
 
 from benchmarks import document
 
-SECTIONS = ('speed', 'agreement', 'robustness', 'node', 'uncertainty', 'study')
+SECTIONS = ('speed', 'agreement', 'robustness', 'node', 'uncertainty', 'study', 'derivatives')
 
 
 def main():

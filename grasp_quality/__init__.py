@@ -14,6 +14,7 @@ from grasp_quality.contact import Contact, ContactModel
 from grasp_quality.exceptions import (
     GraspQualityError, InvalidContactError, InvalidGraspError, InvalidTaskError, SolverError,
     SolverTimeoutError)
+from grasp_quality.explanation import Change, explain, Explanation
 from grasp_quality.grasp import Grasp
 from grasp_quality.grasp_set import GraspSet
 from grasp_quality.holding import minimum_forces, MinimumForces
@@ -23,15 +24,16 @@ from grasp_quality.margin_forces import hold_forces, HoldForces
 from grasp_quality.measures import evaluate, slip_margin, wrench_map
 from grasp_quality.problem import build_problem, ConicProblem
 from grasp_quality.robust import robust_alpha, RobustAlpha
+from grasp_quality.slopes import Slopes
 from grasp_quality.solution import ConeSolution, PolytopeSolution, Solution, Status, WrenchMap
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
 
 __all__ = [
-    'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel', 'ForceClosure', 'Grasp',
-    'GraspQualityError', 'GraspSet', 'HoldForces', 'InvalidContactError', 'InvalidGraspError',
-    'InvalidTaskError', 'JointLimits', 'ManySolution', 'MinimumForces', 'Outcome',
-    'PolytopeSolution', 'RobustAlpha', 'Solution', 'SolverError', 'SolverTimeoutError', 'Status',
-    'TaskCone', 'TaskEllipsoid', 'TaskPolytope', 'TaskWrench', 'WrenchMap', 'build_problem',
-    'evaluate', 'evaluate_many', 'force_closure', 'hold_forces', 'minimum_forces',
-    'robust_alpha', 'slip_margin', 'solve', 'wrench_map']
+    'Change', 'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel', 'Explanation',
+    'ForceClosure', 'Grasp', 'GraspQualityError', 'GraspSet', 'HoldForces', 'InvalidContactError',
+    'InvalidGraspError', 'InvalidTaskError', 'JointLimits', 'ManySolution', 'MinimumForces',
+    'Outcome', 'PolytopeSolution', 'RobustAlpha', 'Slopes', 'Solution', 'SolverError',
+    'SolverTimeoutError', 'Status', 'TaskCone', 'TaskEllipsoid', 'TaskPolytope', 'TaskWrench',
+    'WrenchMap', 'build_problem', 'evaluate', 'evaluate_many', 'explain', 'force_closure',
+    'hold_forces', 'minimum_forces', 'robust_alpha', 'slip_margin', 'solve', 'wrench_map']

@@ -9,7 +9,7 @@ a force is worth to the task, less what it costs the joints (docs/derivations.md
 
 from grasp_quality.arrays import frozen
 from grasp_quality.contact import ContactModel
-from grasp_quality.wrench import skew
+from grasp_quality.wrench import cross, skew
 import numpy as np
 
 NEGLIGIBLE = 1e-6  # share of alpha below which a cap is worth nothing to the task
@@ -62,6 +62,41 @@ def local_worth(grasp, multiplier, joint_multiplier):
     if grasp.joint_limits is None:
         return h
     return h - np.einsum('j,jki->ki', joint_multiplier, grasp.joint_limits.torque_matrix)
+
+
+def position_slope(solution):
+    """
+    Slope of alpha by the position of each contact (k, 3) [1/m] in object axes: lambda . dG x.
+
+    A force f at p does the work lambda_t . (p x f), whose slope by p is f x lambda_t.
+
+    """
+    force, _ = _in_object(solution)
+    return cross(force, solution.multiplier[3:])
+
+
+def rotation_slope(solution):
+    """
+    Slope of alpha by small turns of each contact frame about object axes (k, 3) [1/rad].
+
+    The local forces turn with the frame: d f = w x f does work along v = lambda_f + lambda_t x p,
+    and so does the moment along lambda_t.
+
+    """
+    grasp, turn = solution.grasp, solution.multiplier[3:]
+    at_center = solution.multiplier[:3] + cross(turn, grasp.center)
+    along = at_center + cross(turn, grasp.positions - grasp.center)
+    force, moment = _in_object(solution)
+    return cross(force, along) + cross(moment, turn)
+
+
+def _in_object(solution):
+    """Return forces and moments (k, 3) of the slopes, in object axes; zero if infeasible."""
+    grasp, local = solution.grasp, solution.reference_forces
+    if not len(local):
+        return np.zeros((len(grasp), 3)), np.zeros((len(grasp), 3))
+    force = np.einsum('kij,kj->ki', grasp.rotations, local[:, :3])
+    return force, grasp.rotations[:, :, 2] * local[:, 3:]
 
 
 def dimensional_multiplier(problem, multiplier):

@@ -121,7 +121,7 @@ class Solution:
         """Return the slope of the largest alpha by each friction coefficient mu (k,) [-]."""
         if not self.feasible:
             return frozen(np.zeros(len(self.grasp)))
-        slope = sensitivity.friction_slope(self.grasp, self._local_multipliers)
+        slope = sensitivity.friction_slope(self.grasp, self.local_multipliers)
         return frozen(self.reference_forces[:, 2] * slope)
 
     @property
@@ -136,20 +136,24 @@ class Solution:
         return limits.torques(self.forces) if self.feasible and limits else NO_JOINTS
 
     @cached_property
+    def dalpha_dposition(self):
+        """Return the slope by each contact's position (k, 3) [1/m], in object axes."""
+        return frozen(sensitivity.position_slope(self))
+
+    @cached_property
+    def dalpha_drotation(self):
+        """Return the slope by turns of each contact frame about object axes (k, 3) [1/rad]."""
+        return frozen(sensitivity.rotation_slope(self))
+
+    @cached_property
     def limiting_contact(self):
         """Name of the contact, or joint, whose limit is worth most to the task; '' for none."""
         return sensitivity.name_of(self.grasp, self._limit)
 
     @cached_property
     def limiting_reason(self):
-        """
-        Why that one limits the task: 'slip', 'cap', 'joint', or '' when none does.
-
-        A stronger press is worth h_n + |friction part| at the contact: 'slip' when most of it
-        comes through friction, so that more friction would help as well.
-
-        """
-        return sensitivity.reason(self.grasp, self._local_multipliers, self._limit)
+        """Why: 'slip' (a larger cap helps mostly by friction), 'cap', 'joint', or '' for none."""
+        return sensitivity.reason(self.grasp, self.local_multipliers, self._limit)
 
     @cached_property
     def _limit(self):
@@ -159,7 +163,8 @@ class Solution:
         return sensitivity.limit(worth, self.alpha)
 
     @cached_property
-    def _local_multipliers(self):
+    def local_multipliers(self):
+        """Return what each local force is worth (k, 4): G_i^T lambda less the joints' price."""
         return sensitivity.local_worth(self.grasp, self.multiplier, self.joint_multiplier)
 
 
