@@ -14,7 +14,8 @@ setup(
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
     ],
-    install_requires=['setuptools', 'numpy', 'scipy', 'mujoco-core', 'matplotlib'],
+    install_requires=[
+        'setuptools', 'numpy', 'scipy', 'mujoco-core', 'matplotlib', 'trimesh', 'viser'],
     extras_require={'test': ['pytest']},
     zip_safe=True,
     author='The grasp_quality authors',
@@ -28,6 +29,7 @@ setup(
             'fetch_dclaw = grasp_quality_hand.fetch_dclaw:main',
             'force_audit = grasp_quality_hand.force_audit_node:main',
             'simulated_hand = grasp_quality_hand.simulated_hand_node:main',
+            'viewer = grasp_quality_hand.viewer:main',
         ],
     },
 )

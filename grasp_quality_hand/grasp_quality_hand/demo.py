@@ -20,6 +20,7 @@ from grasp_quality_hand.demo_client import DemoClient
 from grasp_quality_hand.demo_processes import ChildProcess, claim_domain, DemoFailure, executable
 from grasp_quality_hand.demo_questions import ask_all
 from grasp_quality_hand.demo_report import report
+from grasp_quality_hand.demo_viewer import show_page
 from grasp_quality_hand.grasp_objects import FRICTION, OBJECTS, TORSIONAL_FRICTION
 from grasp_quality_hand.grasp_picture import draw_grasp
 from grasp_quality_hand.hand_model import FINGERS
@@ -86,6 +87,7 @@ def _run(options, output, children):
         for name in options.objects:
             _show(client, OBJECTS[name], output)
         if options.keep:
+            show_page(client, children, output)
             _wait(children)
     finally:
         client.close()

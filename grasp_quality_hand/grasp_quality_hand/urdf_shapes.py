@@ -10,7 +10,7 @@ import numpy as np
 import trimesh
 
 MANY_FACES = 3000  # a mesh with more is made coarser
-FINEST = 1.0 / 40.0  # cell that vertices are merged in, of the mesh's extent
+FINEST = 1.0 / 24.0  # cell that vertices are merged in, of the mesh's extent
 
 
 def link_meshes(tree: UrdfTree, link: str) -> list[trimesh.Trimesh]:
@@ -36,16 +36,18 @@ def mesh_of(shape: Shape) -> trimesh.Trimesh:
 
 
 def _plain_mesh(shape: Shape) -> trimesh.Trimesh:
+    mesh: trimesh.Trimesh
     if shape.kind == 'box':
-        return trimesh.creation.box(shape.size)
-    if shape.kind == 'cylinder':
-        return trimesh.creation.cylinder(radius=shape.size[0], height=shape.size[1], sections=24)
-    if shape.kind == 'sphere':
-        return trimesh.creation.icosphere(subdivisions=2, radius=shape.size[0])
-    if shape.file is None:
+        mesh = trimesh.creation.box(shape.size)
+    elif shape.kind == 'cylinder':
+        mesh = trimesh.creation.cylinder(shape.size[0], shape.size[1], sections=24)
+    elif shape.kind == 'sphere':
+        mesh = trimesh.creation.icosphere(subdivisions=2, radius=shape.size[0])
+    elif shape.file is None:
         raise UrdfError('a mesh needs a file')
-    mesh = read_mesh(shape.file).copy()
-    mesh.apply_scale(shape.size)
+    else:
+        mesh = read_mesh(shape.file).copy()
+        mesh.apply_scale(shape.size)
     return mesh
 
 

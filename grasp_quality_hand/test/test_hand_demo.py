@@ -7,6 +7,7 @@ from pathlib import Path
 import signal
 import subprocess
 import time
+import urllib.request
 import uuid
 
 from grasp_quality_hand.demo_processes import executable
@@ -41,10 +42,10 @@ class DemoRun:
         return found
 
     def wait_for_line(self, text):
-        """Read what the demo prints until a line holds the text."""
+        """Read what the demo prints until a line holds the text; return that line."""
         for line in self.process.stdout:
             if text in line:
-                return
+                return line
         raise AssertionError(f'the demo ended without saying {text!r}')
 
     def end(self):
@@ -88,4 +89,16 @@ def test_ctrl_c_ends_everything(demo):
     run.process.send_signal(signal.SIGINT)
     code, output = run.end()
     assert code in (0, 130) and 'Traceback' not in output
+    assert run.processes() == []
+
+
+def test_a_demo_that_is_kept_serves_a_page(demo):
+    run = demo('--keep', '--objects', 'cube')
+    address = run.wait_for_line('The live grasp is at').split()[-1]
+    with urllib.request.urlopen(address, timeout=60.0) as page:
+        assert page.status == 200 and b'<html' in page.read(10_000).lower()
+    assert len(run.processes()) == 4
+    run.process.send_signal(signal.SIGINT)
+    code, output = run.end()
+    assert code == 0 and 'Traceback' not in output
     assert run.processes() == []
