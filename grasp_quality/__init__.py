@@ -9,6 +9,7 @@ object frame; contact frames with +z along the inward normal; forces are those t
 on the object. See docs/conventions.md.
 """
 
+from grasp_quality.ball import ball_radius, BallRadius, ellipsoid_scale
 from grasp_quality.closure import force_closure, ForceClosure
 from grasp_quality.contact import Contact, ContactModel
 from grasp_quality.exceptions import (
@@ -30,10 +31,11 @@ from grasp_quality.solve import solve
 from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
 
 __all__ = [
-    'Change', 'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel', 'Explanation',
-    'ForceClosure', 'Grasp', 'GraspQualityError', 'GraspSet', 'HoldForces', 'InvalidContactError',
-    'InvalidGraspError', 'InvalidTaskError', 'JointLimits', 'ManySolution', 'MinimumForces',
-    'Outcome', 'PolytopeSolution', 'RobustAlpha', 'Slopes', 'Solution', 'SolverError',
-    'SolverTimeoutError', 'Status', 'TaskCone', 'TaskEllipsoid', 'TaskPolytope', 'TaskWrench',
-    'WrenchMap', 'build_problem', 'evaluate', 'evaluate_many', 'explain', 'force_closure',
-    'hold_forces', 'minimum_forces', 'robust_alpha', 'slip_margin', 'solve', 'wrench_map']
+    'BallRadius', 'Change', 'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel',
+    'Explanation', 'ForceClosure', 'Grasp', 'GraspQualityError', 'GraspSet', 'HoldForces',
+    'InvalidContactError', 'InvalidGraspError', 'InvalidTaskError', 'JointLimits', 'ManySolution',
+    'MinimumForces', 'Outcome', 'PolytopeSolution', 'RobustAlpha', 'Slopes', 'Solution',
+    'SolverError', 'SolverTimeoutError', 'Status', 'TaskCone', 'TaskEllipsoid', 'TaskPolytope',
+    'TaskWrench', 'WrenchMap', 'ball_radius', 'build_problem', 'ellipsoid_scale', 'evaluate',
+    'evaluate_many', 'explain', 'force_closure', 'hold_forces', 'minimum_forces', 'robust_alpha',
+    'slip_margin', 'solve', 'wrench_map']

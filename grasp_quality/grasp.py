@@ -211,7 +211,7 @@ class Grasp:
         return float(self.max_normal_forces.min()) / self.force_scale
 
     @cached_property
-    def _range(self):
+    def span(self):
         """Orthonormal basis (6, rank) of the wrenches that unbounded forces could span."""
         G = self.scaled_matrix.reshape(6, -1)
         norms = np.sqrt((G * G).sum(axis=0))
@@ -221,12 +221,12 @@ class Grasp:
     @property
     def rank(self):
         """Rank of the grasp matrix, 1 to 6."""
-        return self._range.shape[1]
+        return self.span.shape[1]
 
     def spans(self, wrench):
         """Tell whether forces of any sign and size could produce this wrench (6,)."""
         w = self.scaled_wrench(wrench)
-        rest = w - self._range @ (self._range.T @ w)
+        rest = w - self.span @ (self.span.T @ w)
         return bool(np.sqrt(rest @ rest) <= RANK_TOLERANCE * np.sqrt(w @ w))
 
     def scaled_wrench(self, wrench):

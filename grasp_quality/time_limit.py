@@ -27,6 +27,11 @@ class TimeLimit:
         """Return a TimeLimit of a number of seconds; None and a running TimeLimit stay."""
         return limit if limit is None or isinstance(limit, cls) else cls(float(limit))
 
+    @property
+    def is_over(self):
+        """Whether nothing is left."""
+        return time.monotonic() >= self._end
+
     def remaining_s(self, problem=None):
         """
         Return what is left [s], more than 0.

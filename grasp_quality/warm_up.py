@@ -3,10 +3,11 @@
 """
 Run every kind of solve once, so that the first real query is as fast as the thousandth.
 
-Compiles the kernel on a machine that has not run it yet (about half a minute, kept in numba's
-cache beside the source). ``python -m grasp_quality.warm_up`` does the same from a shell.
+Compiles what a machine has not run yet (about a minute, kept in numba's cache beside the source).
+``python -m grasp_quality.warm_up`` does the same from a shell.
 """
 
+from grasp_quality.ball import ball_radius
 from grasp_quality.contact import Contact, ContactModel
 from grasp_quality.grasp import Grasp
 from grasp_quality.measures import evaluate, wrench_map
@@ -21,6 +22,7 @@ def warm_up(bound='linf'):
         grasp = Grasp(contacts, bound)
         evaluate(grasp, TaskWrench([1, 0, 0, 0, 0, 0]), [0, 0, -0.1, 0, 0, 0], 1e-3)
         wrench_map(grasp, [[1, 0, 0, 0, 0, 0]])
+        ball_radius(grasp, torque_length=0.03)
 
 
 if __name__ == '__main__':

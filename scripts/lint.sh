@@ -20,10 +20,10 @@ mapfile -t sources < <(find setup.py env.sh Makefile .ci "${folders[@]}" -type f
     -o -name Makefile -o -name run \))
 headless=$(grep -L -e '^# SPDX-License-Identifier: Apache-2.0$' "${sources[@]}")
 [ -z "$headless" ] || { printf 'no licence header:\n%s\n' "$headless"; code=1; }
-# kernel.py alone may be longer: numba's cache sees only changes of the file a function stands in,
-# so that all compiled code has to stand in one
+# compiled files alone may be longer: numba's cache sees only changes of the file a function stands
+# in, so that compiled code has to stand in the file of what it calls
 long=$(wc -l "${sources[@]}" | awk '$2 != "total" && $2 != "grasp_quality/kernel.py" \
-    && $1 > 250 {print $2 ": " $1 " lines"}')
+    && $2 != "grasp_quality/ball_search.py" && $1 > 250 {print $2 ": " $1 " lines"}')
 [ -z "$long" ] || { printf 'over 250 lines:\n%s\n' "$long"; code=1; }
 
 [ $code -eq 0 ] && echo "lint: ${#sources[@]} files clean"

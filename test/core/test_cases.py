@@ -1,13 +1,13 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""All known answers of cases.json; its ball_radius block belongs to a measure not built yet."""
+"""All known answers of cases.json."""
 
 from answer_checks import check_task_wrench
-from benchmarks.cases import CASES, evaluate_case
-from grasp_quality import Status
+from benchmarks.cases import CASES, evaluate_case, grasp_of
+from grasp_quality import ball_radius, Status
 import numpy as np
 import pytest
-from tolerances import SOLVER
+from tolerances import CLOSED_FORM, SOLVER
 
 
 def cases(kind):
@@ -46,6 +46,13 @@ def test_polytope(case):
     assert solution.parallelotope_scale == pytest.approx(case['parallelotope_scale'], rel=SOLVER)
 
 
+@cases('ball_radius')
+def test_ball_radius(case):
+    found = ball_radius(grasp_of(case), case['torque_length'])
+    assert found.lower <= case['radius'] <= found.upper
+    assert found.reached and found.width <= 0.01 + CLOSED_FORM
+
+
 def test_no_case_is_left_out():
-    tested = {'task_wrench', 'task_cone', 'barrier', 'polytope'}
-    assert set(CASES) - tested == {'conventions', 'ball_radius'}
+    tested = {'task_wrench', 'task_cone', 'barrier', 'polytope', 'ball_radius'}
+    assert set(CASES) - tested == {'conventions'}
