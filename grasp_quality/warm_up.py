@@ -11,6 +11,7 @@ from grasp_quality.ball import ball_radius
 from grasp_quality.contact import Contact, ContactModel
 from grasp_quality.grasp import Grasp
 from grasp_quality.measures import evaluate, wrench_map
+from grasp_quality.robust import robust_alpha
 from grasp_quality.task import TaskWrench
 
 
@@ -23,6 +24,7 @@ def warm_up(bound='linf'):
         evaluate(grasp, TaskWrench([1, 0, 0, 0, 0, 0]), [0, 0, -0.1, 0, 0, 0], 1e-3)
         wrench_map(grasp, [[1, 0, 0, 0, 0, 0]])
         ball_radius(grasp, torque_length=0.03)
+        robust_alpha(grasp, TaskWrench([1, 0, 0, 0, 0, 0]), samples=2)
 
 
 if __name__ == '__main__':

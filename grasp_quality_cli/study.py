@@ -38,8 +38,8 @@ def study(
             help='Address of a Dask scheduler, such as tcp://host:8786: its workers score the '
             'rows instead of this machine.', show_default=False)] = None,
         chunk_rows: Annotated[int, typer.Option(
-            help='Rows that are scored and kept together: what a kill can cost at most, for each '
-            'worker.', min=1)] = 500,
+            help='Rows that are scored and kept together; a kill costs no more than twice as many '
+            'for each worker.', min=1)] = 500,
         overwrite: Annotated[bool, typer.Option(
             '--overwrite', help='Begin anew, also where answers are there already.')] = False,
         json: Annotated[bool, typer.Option(
@@ -47,11 +47,12 @@ def study(
     """
     Score every grasp of a dataset by how much of a task it can apply.
 
-    A row that cannot be used is told with its line number, written to OUTPUT.bad_rows.jsonl and
-    skipped. However the study ends, the same command goes on where it was: nothing is lost and
-    nothing is scored twice. Memory does not grow with the dataset.
+    A row that cannot be used is told with its line number, skipped, and
+    written to OUTPUT.bad_rows.jsonl. However the study ends, the same command
+    goes on where it was: nothing is lost and nothing is scored twice. Memory
+    does not grow with the dataset.
 
-    Example: grasp-quality study examples/grasps.jsonl --task "0 0 2 0 0 0" -o scores.parquet
+    Example: grasp-quality study examples/grasps.jsonl --task "0 0 2 0 0 0" -o out.parquet
     """
     from grasp_quality_cli import study_run  # it imports much, which other commands do not need
     plan = study_run.Plan.of(

@@ -17,6 +17,7 @@ from concurrent.futures import (
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 import ctypes
+import logging
 import multiprocessing
 import signal
 from typing import Any, TypeVar
@@ -60,6 +61,8 @@ def dask_workers(scheduler: str) -> Iterator[tuple[Executor, int]]:
         from distributed import Client
     except ImportError as exc:
         raise StudyError('--scheduler needs Dask: pip install distributed') from exc
+    # its loss is told below, once and without tracebacks
+    logging.getLogger('distributed.client').setLevel(logging.CRITICAL)
     try:
         client: Any = Client(  # type: ignore[no-untyped-call]
             scheduler, timeout=CONNECT_S, set_as_default=False)
@@ -86,7 +89,8 @@ def dask_workers(scheduler: str) -> Iterator[tuple[Executor, int]]:
 def _of_dask(exc: BaseException, scheduler: str) -> StudyError:
     if isinstance(exc, ImportError):
         return StudyError(f'the Dask workers need the same grasp_quality installed: {exc}')
-    return StoppedError(f'the Dask cluster at {scheduler} was lost: {type(exc).__name__}: {exc}')
+    why = f'{type(exc).__name__}: {exc}'.rstrip(': ')
+    return StoppedError(f'the Dask cluster at {scheduler} was lost ({why})')
 
 
 def work_off(jobs: Iterable[Job], submit: Callable[[Job], Future[Any]], window: int,

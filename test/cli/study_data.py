@@ -12,10 +12,14 @@ import time
 
 import pyarrow as pa
 import pyarrow.parquet as pq
+import pytest
+from tolerances import SOLVER
 
 DEADLINE_S = 120.0
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 TASK = '0 0 2 0 0 0'
+COUNT = 800
+BAD = (17, 18, 700)  # lines that are no rows
 PROGRAM = [sys.executable, '-m', 'grasp_quality_cli.main', 'study']
 
 
@@ -77,3 +81,42 @@ def until(condition, what, log=None):
         assert time.monotonic() < deadline, f'waited {DEADLINE_S} s for {what}: {said}'
         time.sleep(0.01)
     return result
+
+
+def command(dataset, output, *more):
+    """Build the command of a study in chunks of 20 rows."""
+    return [*PROGRAM, dataset, '-o', output, '--task', TASK, '--chunk-rows', '20', '--json', *more]
+
+
+def check_whole(output):
+    """Assert that good rows have their closed form, once and in order, and bad ones are told."""
+    found = answers(output)
+    expected = [i for i in range(1, COUNT + 1) if i not in BAD]
+    assert [a['row'] for a in found] == expected
+    assert [a['id'] for a in found] == [f'g{i}' for i in expected]
+    alphas = frictions(COUNT)
+    assert [a['alpha'] for a in found] == pytest.approx(
+        [10.0 * alphas[i - 1] for i in expected], rel=SOLVER)
+    bad = output.with_name(output.name + '.bad_rows.jsonl').read_text().splitlines()
+    assert [json.loads(line)['row'] for line in bad] == list(BAD)
+    assert not output.with_name(output.name + '.parts').exists()
+
+
+def parts_of(output):
+    """List the parts that are done."""
+    return list(output.with_name(output.name + '.parts').glob('part-*.parquet'))
+
+
+def finish(command):
+    """Run a command to its end; return its summary."""
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
+    assert done.returncode == 1, done.stderr  # there are bad rows
+    return json.loads(done.stdout), done.stderr
+
+
+def write_dataset(path):
+    """Write 800 rows, three of them bad."""
+    rows = [pinch(mu, id=f'g{i}') for i, mu in enumerate(frictions(COUNT), 1)]
+    for row in BAD:
+        rows[row - 1] = f'bad row {row}'
+    return write_lines(path, rows)

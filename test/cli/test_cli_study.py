@@ -1,26 +1,23 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""``grasp-quality study`` as it is used: killed and gone on with, on cores and on Dask."""
+"""``grasp-quality study`` as it is used: killed and gone on with, and what it tells."""
 
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack
 import json
 import os
+import pty
 import shutil
 import signal
 import subprocess
-import sys
 
 from grasp_quality_cli.study_workers import work_off
 import psutil
 import pyarrow.parquet as pq
 import pytest
 from study_data import (
-    answers, frictions, pinch, process, PROGRAM, TASK, until, write_lines, write_table)
+    answers, BAD, check_whole, command, COUNT, finish, frictions, parts_of, pinch, process, TASK,
+    until, write_dataset, write_lines, write_table)
 from tolerances import SOLVER
-
-COUNT = 800
-BAD = (17, 18, 700)
 
 
 @pytest.fixture(scope='module')
@@ -30,40 +27,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope='module')
 def dataset(folder):
-    """Return 800 rows, three of them bad."""
-    rows = [pinch(mu, id=f'g{i}') for i, mu in enumerate(frictions(COUNT), 1)]
-    for row in BAD:
-        rows[row - 1] = f'bad row {row}'
-    return write_lines(folder / 'grasps.jsonl', rows)
-
-
-def command(dataset, output, *more):
-    return [*PROGRAM, dataset, '-o', output, '--task', TASK, '--chunk-rows', '20', '--json', *more]
-
-
-def check_whole(output):
-    """Every good row has its closed form, once and in order; every bad row is told."""
-    found = answers(output)
-    expected = [i for i in range(1, COUNT + 1) if i not in BAD]
-    assert [a['row'] for a in found] == expected
-    assert [a['id'] for a in found] == [f'g{i}' for i in expected]
-    alphas = frictions(COUNT)
-    assert [a['alpha'] for a in found] == pytest.approx(
-        [10.0 * alphas[i - 1] for i in expected], rel=SOLVER)
-    bad = output.with_name(output.name + '.bad_rows.jsonl').read_text().splitlines()
-    assert [json.loads(line)['row'] for line in bad] == list(BAD)
-    assert not output.with_name(output.name + '.parts').exists()
-
-
-def parts_of(output):
-    return list(output.with_name(output.name + '.parts').glob('part-*.parquet'))
-
-
-def finish(command):
-    """Run a command to its end; return its summary."""
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    assert done.returncode == 1, done.stderr  # there are bad rows
-    return json.loads(done.stdout), done.stderr
+    return write_dataset(folder / 'grasps.jsonl')
 
 
 def test_killed_again_and_again_it_loses_nothing_and_leaves_nobody_behind(dataset, folder):
@@ -97,56 +61,39 @@ def test_bad_rows_are_told_with_their_line(dataset, folder):
     check_whole(folder / 'told.parquet')
 
 
+def test_a_terminal_sees_a_bar_and_a_pipe_does_not(dataset, folder):
+    ours, theirs = pty.openpty()
+    output = folder / 'bar.parquet'
+    program = [str(part) for part in command(dataset, output, '--workers', '1')]
+    with subprocess.Popen(program, stderr=theirs, stdout=subprocess.PIPE) as running:
+        os.close(theirs)
+        shown = b''
+        while part := _read(ours):
+            shown += part
+        running.stdout.read()
+    os.close(ours)
+    assert b'800 rows, 3 bad' in shown and b'100%' in shown
+    assert '100%' not in finish(command(dataset, output, '--overwrite', '--workers', '1'))[1]
+
+
+def _read(terminal):
+    try:
+        return os.read(terminal, 65536)
+    except OSError:  # how Linux says that nobody writes any longer
+        return b''
+
+
 def test_parquet_in_gives_what_lines_give(folder, run):
     rows = [pinch(mu, id=f'g{i}') for i, mu in enumerate(frictions(60), 1)]
     tables = []
     for dataset in (write_lines(folder / 'few.jsonl', rows),
                     write_table(folder / 'few.parquet', rows, group=25)):
         output = folder / f'{dataset.suffix[1:]}.out.parquet'
-        code, out, err = run('study', dataset, '-o', output, '--task', TASK, '--workers', 1,
+        code, out, err = run('study', dataset, '-o', output, '--task', TASK, '--workers', 2,
                              '--chunk-rows', 20)
         assert code == 0 and '60, of which 60 scored' in out, err
         tables.append(pq.read_table(output))
     assert tables[0].equals(tables[1])
-
-
-def test_a_cluster_that_loses_a_worker_loses_nothing(dataset, folder):
-    output, file = folder / 'cluster.parquet', folder / 'scheduler.json'
-    dask = [sys.executable, '-m', 'distributed.cli.dask_scheduler', '--host', '127.0.0.1',
-            '--port', '0', '--no-dashboard', '--scheduler-file', file]
-    with ExitStack() as stack:
-        log = folder / 'scheduler.log'
-        stack.enter_context(process(dask, log))
-        address = until(lambda: _address(file), 'the scheduler', log)
-        workers = [stack.enter_context(process(
-            [sys.executable, '-m', 'distributed.cli.dask_worker', address, '--nthreads', '1',
-             '--no-nanny', '--no-dashboard', '--local-directory', folder / f'worker_{i}'],
-            folder / f'worker_{i}.log')) for i in range(2)]
-        for i in range(2):
-            log = folder / f'worker_{i}.log'
-            until(lambda: 'Registered to' in log.read_text(), 'a worker', log)
-        log = folder / 'cluster.log'
-        running = stack.enter_context(process(
-            command(dataset, output, '--scheduler', address), log))
-        until(lambda: len(parts_of(output)) >= 5, 'five parts', log)
-        workers[0].kill()
-        assert running.wait(120) == 1, log.read_text()
-    check_whole(output)
-    assert '"rows_now": 800' in log.read_text()
-
-
-def _address(file):
-    try:
-        return json.loads(file.read_text())['address']
-    except (FileNotFoundError, ValueError):
-        return None
-
-
-def test_a_scheduler_that_is_not_there_is_told(dataset, folder, run, monkeypatch):
-    monkeypatch.setattr('grasp_quality_cli.study_workers.CONNECT_S', 1)
-    code, _, err = run('study', dataset, '-o', folder / 'none.parquet', '--task', TASK,
-                       '--scheduler', 'tcp://127.0.0.1:9')
-    assert code == 2 and 'no Dask scheduler answers at tcp://127.0.0.1:9' in err
 
 
 def test_no_more_jobs_are_taken_than_the_window_has_room_for():
