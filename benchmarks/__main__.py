@@ -12,7 +12,8 @@ import importlib
 
 from benchmarks import document
 
-SECTIONS = ('speed', 'agreement', 'robustness', 'node', 'uncertainty', 'study', 'derivatives')
+SECTIONS = ('speed', 'agreement', 'robustness', 'node', 'uncertainty', 'study', 'derivatives',
+            'worst_case')
 
 
 def main():

@@ -19,6 +19,7 @@ from grasp_quality.explanation import Change, explain, Explanation
 from grasp_quality.grasp import Grasp
 from grasp_quality.grasp_set import GraspSet
 from grasp_quality.holding import minimum_forces, MinimumForces
+from grasp_quality.indices import grasp_indices, GraspIndices
 from grasp_quality.joint_limits import JointLimits
 from grasp_quality.many import evaluate_many, ManySolution, Outcome
 from grasp_quality.margin_forces import hold_forces, HoldForces
@@ -29,13 +30,15 @@ from grasp_quality.slopes import Slopes
 from grasp_quality.solution import ConeSolution, PolytopeSolution, Solution, Status, WrenchMap
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
+from grasp_quality.volume import volume, WrenchVolume
 
 __all__ = [
     'BallRadius', 'Change', 'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel',
-    'Explanation', 'ForceClosure', 'Grasp', 'GraspQualityError', 'GraspSet', 'HoldForces',
-    'InvalidContactError', 'InvalidGraspError', 'InvalidTaskError', 'JointLimits', 'ManySolution',
-    'MinimumForces', 'Outcome', 'PolytopeSolution', 'RobustAlpha', 'Slopes', 'Solution',
-    'SolverError', 'SolverTimeoutError', 'Status', 'TaskCone', 'TaskEllipsoid', 'TaskPolytope',
-    'TaskWrench', 'WrenchMap', 'ball_radius', 'build_problem', 'ellipsoid_scale', 'evaluate',
-    'evaluate_many', 'explain', 'force_closure', 'hold_forces', 'minimum_forces', 'robust_alpha',
-    'slip_margin', 'solve', 'wrench_map']
+    'Explanation', 'ForceClosure', 'Grasp', 'GraspIndices', 'GraspQualityError', 'GraspSet',
+    'HoldForces', 'InvalidContactError', 'InvalidGraspError', 'InvalidTaskError', 'JointLimits',
+    'ManySolution', 'MinimumForces', 'Outcome', 'PolytopeSolution', 'RobustAlpha', 'Slopes',
+    'Solution', 'SolverError', 'SolverTimeoutError', 'Status', 'TaskCone', 'TaskEllipsoid',
+    'TaskPolytope', 'TaskWrench', 'WrenchMap', 'WrenchVolume', 'ball_radius', 'build_problem',
+    'ellipsoid_scale', 'evaluate', 'evaluate_many', 'explain', 'force_closure', 'grasp_indices',
+    'hold_forces', 'minimum_forces', 'robust_alpha', 'slip_margin', 'solve', 'volume',
+    'wrench_map']

@@ -152,10 +152,7 @@ def ellipsoid_scale(grasp: Grasp, ellipsoid: TaskEllipsoid, relative_width: floa
     if not isinstance(ellipsoid, TaskEllipsoid):
         raise InvalidTaskError(
             f'ellipsoid must be a TaskEllipsoid, got {type(ellipsoid).__name__}')
-    if grasp.joint_limits is not None:
-        raise InvalidTaskError(
-            'the largest ball is known for caps and friction cones only, but the grasp has '
-            'joint_limits: make it without them, or ask evaluate for single wrenches')
+    refuse_joint_limits(grasp, 'the largest ball')
     found = Inscribed(grasp, ellipsoid.axes, width, TimeLimit.of(time_limit_s))
     return BallRadius(
         grasp, found.lower, found.upper, frozen(_physical(grasp, found.multiplier)),
@@ -168,3 +165,11 @@ def _physical(grasp: Grasp, multiplier: Array) -> Array:
     worth[3:] /= grasp.lever_arm
     worth[:3] -= skew(worth[3:]) @ grasp.center
     return worth
+
+
+def refuse_joint_limits(grasp: Grasp, measure: str) -> None:
+    """Raise an InvalidTaskError when the grasp has joint limits, which the measure cannot keep."""
+    if grasp.joint_limits is not None:
+        raise InvalidTaskError(
+            f'{measure} is known for caps and friction cones only, but the grasp has '
+            'joint_limits: make it without them, or ask evaluate for single wrenches')

@@ -210,10 +210,10 @@ def prove(G, D2, groups, best, worth, slope, rho, need, cell, values, direction,
 
 
 @numba.njit(**COMPILE)
-def bound_of(D2, cell, m, sag, rho):
+def bound_of(D2, cell, m, sag, slack, rho):
     """Return the largest rho that the cell's point proves (Dinkelbach's iteration)."""
     for _ in range(30):
-        over, under = 0.0, sag
+        over, under = -slack, sag
         for j in range(len(D2)):
             g = cell[POINT, j] * m - rho * D2[j] * cell[CENTRE, j]
             v = cell[CENTRE, j] - math.copysign(cell[HALF, j], g)
@@ -254,8 +254,14 @@ def pop(heap, size, keys):
 
 
 @numba.njit(**COMPILE)
-def search(G, D2, groups, best, cells, keys, axes, heap, counters, values, direction, width, pops):
-    """Halve the worst cells, ``pops`` of them, or until all are proved or the arrays are full."""
+def search(G, D2, groups, best, cells, keys, axes, heap, counters, values, direction, width, slack,
+           pops):
+    """
+    Halve the worst cells, ``pops`` of them, or until all are proved or the arrays are full.
+
+    ``slack`` is how far rounding can have moved p . v - rho |D v| for any direction of the cube.
+
+    """
     k, _, d = G.shape
     worth, slope = np.empty(k), np.empty(d)
     work = (np.empty((d + 1, d + 1)), np.empty(d + 1), np.empty(d + 1, np.bool_),
@@ -279,7 +285,7 @@ def search(G, D2, groups, best, cells, keys, axes, heap, counters, values, direc
             factor = rho / m if m > 0.0 else 0.0
             for j in range(d):
                 slope[j] = factor * D2[j] * cell[CENTRE, j]
-            need = factor * sag
+            need = factor * sag + slack
             counters[BOUNDED] += 1
             outcome = prove(G, D2, groups, best, worth, slope, rho, need, cell, values, direction,
                             work)
@@ -287,7 +293,7 @@ def search(G, D2, groups, best, cells, keys, axes, heap, counters, values, direc
                 values[PROVED] = min(values[PROVED], rho)
                 continue
             if m > 0.0:
-                keys[i] = max(keys[i], bound_of(D2, cell, m, sag, rho))
+                keys[i] = max(keys[i], bound_of(D2, cell, m, sag, slack, rho))
             # |D v| bends by the coordinates that D weighs; an open program needs a smaller box
             weight = D2 if outcome == HOPELESS else np.ones(d)
             axes[i] = np.argmax(weight * cell[HALF] ** 2)

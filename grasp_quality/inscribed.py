@@ -28,8 +28,9 @@ FIRST_CELLS = 1024    # room for so many at first; doubled when full
 MOST_CELLS = 400_000  # some 100 MB and a few seconds
 POPS = 50             # cells between two looks at the clock
 ROUNDING = 1e-12      # relative; the interval is widened by it
+EPSILON = 8.0 * np.finfo(float).eps  # of products and sums of six
 SETTLED = 1e-10       # relative change of the ratio that ends a local search
-ZERO = 1e-10          # ratio, of a W and an ellipsoid of size one, that counts as zero
+ZERO = 1e3            # times what rounding can do: a ratio below that cannot be told from zero
 ONES = np.ones(4)     # cone scales of scaled coordinates
 FLAT = 1e-9           # share of an axis that may stand out of the wrenches that G spans
 
@@ -71,6 +72,7 @@ class Inscribed:
         self.scaled_axes = grasp.scaled_wrench(axes)  # (n, 6)
         self.lower, self.upper, self.cells, self.reached = 0.0, np.inf, 0, True
         self.multiplier: Array = np.zeros(6)
+        self._magnitudes = np.abs(grasp.scaled_matrix.reshape(6, -1))
         self.weakest: Solution | None = None
         if not self._flat():
             self._run()
@@ -86,6 +88,7 @@ class Inscribed:
         local = (multiplier @ self.grasp.scaled_matrix.reshape(6, -1)).reshape(-1, 4)
         sigma = bounds.support(
             friction_cone.support(local, ONES), self.grasp.bound, self.grasp.groups)
+        sigma += EPSILON * float((np.abs(multiplier) @ self._magnitudes).sum()) * (sigma > 0.0)
         return sigma / size if size > 0.0 else np.inf
 
     def _flat(self) -> bool:
@@ -112,13 +115,16 @@ class Inscribed:
         ball_search.ratios(*problem, directions, found)
         for i in np.argsort(found)[:DESCENTS]:
             self._descend(turn @ directions[i])
-        size = D.max() and 1.0 / D.max()
-        if self.upper > ZERO * size:
-            self._prove(problem, turn)
+        # how far rounding in G and in D can move p . v and upper |D v| of any v of the cube
+        noise = EPSILON * float((self._magnitudes.T @ np.abs(turn)).sum() + self.upper * (
+            np.abs(self.scaled_axes) @ np.abs(turn)).sum())
+        nothing = ZERO * noise / D.max()
+        if self.upper > nothing:
+            self._prove(problem, turn, noise)
         self.upper *= 1.0 + ROUNDING
         self.lower = max(0.0, min(self.lower * (1.0 - ROUNDING), self.upper))
         narrow = self.upper - self.lower <= (self.width + 3.0 * ROUNDING) * self.upper
-        self.reached = bool(narrow or self.upper <= ZERO * size)
+        self.reached = bool(narrow or self.upper <= nothing)
 
     def _rounded(self) -> tuple[Array, Array, Array]:
         """
@@ -160,7 +166,7 @@ class Inscribed:
             if lowest:
                 self.weakest = solution
 
-    def _prove(self, problem: Arrays, turn: Array) -> None:
+    def _prove(self, problem: Arrays, turn: Array, noise: float) -> None:
         """Cover all directions by cells and halve the worst ones until the width is reached."""
         d = turn.shape[1]
         faces = np.zeros((2 * d, 3, d))
@@ -179,7 +185,7 @@ class Inscribed:
         while True:
             met = values[ball_search.UPPER]
             ball_search.search(*problem, cells, keys, axes, heap, counters, values, direction,
-                               self.width, POPS)
+                               self.width, noise, POPS)
             if values[ball_search.UPPER] < met:
                 self._descend(turn @ direction)
                 values[ball_search.UPPER] = min(values[ball_search.UPPER], self.upper * size)

@@ -10,6 +10,7 @@ with a result code, so that a client always gets an answer and never half of one
 import math
 import time
 
+from grasp_quality.ball import ellipsoid_scale
 from grasp_quality.directions import force_grid
 from grasp_quality.holding import minimum_forces
 from grasp_quality.measures import evaluate, wrench_map
@@ -23,6 +24,7 @@ from msg_adapters.stamps import to_duration
 from msg_adapters.tasks import (
     cone_task, live_task, load_from, polytope_task, wrench_rows, wrench_task)
 from msg_adapters.uncertainty import fill_robust_alpha, noise_from, sampling_from
+from msg_adapters.worst_case import ellipsoid_from, fill_ball_radius, width_from
 from msg_adapters.wrenches import to_wrench
 from std_msgs.msg import Header
 
@@ -44,6 +46,7 @@ class Services:
                 (srv.MinimumForces, self.minimum_forces),
                 (srv.WrenchMap, self.wrench_map),
                 (srv.RobustAlpha, self.robust_alpha),
+                (srv.BallRadius, self.ball_radius),
                 (srv.SetTask, self.set_task)):
             node.create_service(kind, f'~/{handler.__name__}', self._bounded(handler))
 
@@ -164,6 +167,15 @@ class Services:
         fill_robust_alpha(response, robust_alpha(
             grasp, wrench_task(request.task_wrench, transform), load, **noise_from(request),
             **sampling, time_limit_s=settings.solver_time_limit))
+
+    def ball_radius(self, request, response):
+        """Answer the radius of the largest ball of wrenches, the worst case."""
+        grasp, _, transform, _ = self._question(request)
+        settings = self._settings()
+        ellipsoid = ellipsoid_from(request, transform, settings.max_request_size)
+        answer = ellipsoid_scale(
+            grasp, ellipsoid, width_from(request), settings.solver_time_limit)
+        fill_ball_radius(response, answer)
 
     def set_task(self, request, response):
         """Set task and load of the live loop, once they are known to be valid."""

@@ -4,10 +4,10 @@
 
 import dataclasses
 
-from benchmarks.random_grasps import BOUNDS, random_grasp
+from benchmarks.random_grasps import BOUNDS, degenerate_grasp, random_grasp
 from grasp_quality import (
     ball_radius, Contact, ellipsoid_scale, evaluate, Grasp, InvalidTaskError, JointLimits,
-    TaskEllipsoid, TaskWrench, wrench_map)
+    SolverError, TaskEllipsoid, TaskWrench, wrench_map)
 from grasp_quality.ball import WIDTH
 from known_grasps import antipodal, cube_of_eight, FX, single, three_finger
 import numpy as np
@@ -200,6 +200,21 @@ def test_every_wrench_of_an_ellipsoid_is_in_reach(count):
     assert (wrench_map(grasp, points @ axes).alpha >= found.lower).all()
     guaranteed = evaluate(grasp, TaskEllipsoid(axes)).guaranteed_scale
     assert count > 6 or guaranteed <= found.upper * (1.0 + SOLVER)
+
+
+@pytest.mark.parametrize('seed', range(0, 400, 20))
+def test_degenerate_grasps_are_never_promised_more_than_the_dual_allows(seed):
+    rng = np.random.default_rng(seed)
+    grasp = degenerate_grasp(rng)
+    found = ball_radius(grasp, torque_length=grasp.lever_arm)
+    assert 0.0 <= found.lower <= found.upper
+    directions = SPHERE[:10] * np.repeat([1.0, grasp.lever_arm], 3)
+    for direction in (found.weakest_wrench, *directions):
+        try:
+            bound = evaluate(grasp, TaskWrench(direction)).alpha_upper
+        except SolverError:
+            continue
+        assert found.lower <= bound * (1.0 + CLOSED_FORM)
 
 
 def test_out_of_time_is_an_honest_interval():

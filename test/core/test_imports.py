@@ -53,6 +53,6 @@ def test_the_public_names_are_there():
         'Contact', 'ContactModel', 'Grasp', 'TaskWrench', 'TaskCone', 'TaskPolytope',
         'TaskEllipsoid', 'evaluate', 'wrench_map', 'minimum_forces', 'force_closure',
         'slip_margin', 'build_problem', 'solve', 'ConicProblem', 'Solution', 'Status',
-        'GraspQualityError', 'ball_radius'}
+        'GraspQualityError', 'ball_radius', 'volume', 'grasp_indices'}
     assert documented <= set(grasp_quality.__all__)
     assert all(hasattr(grasp_quality, name) for name in grasp_quality.__all__)
