@@ -3,6 +3,7 @@
 """Install the package grasp_quality: core library, message adapters, node, command line."""
 
 from glob import glob
+import os
 
 from setuptools import setup
 
@@ -15,7 +16,8 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
-        (f'share/{NAME}/config', sorted(glob('config/*'))),
+        (f'share/{NAME}/config', sorted(filter(os.path.isfile, glob('config/*')))),
+        (f'share/{NAME}/config/security', sorted(glob('config/security/*'))),
         (f'share/{NAME}/launch', sorted(glob('launch/*.launch.py'))),
     ],
     install_requires=['setuptools', 'numpy', 'scipy', 'numba', 'clarabel'],

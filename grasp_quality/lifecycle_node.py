@@ -9,6 +9,7 @@ message; those of contacts, task and load then evaluate once. Runs in a single-t
 """
 
 import functools
+import os
 
 from geometry_msgs.msg import PoseArray, WrenchStamped
 from grasp_quality import node_parameters as parameters
@@ -17,6 +18,7 @@ from grasp_quality.node_inputs import Inputs
 from grasp_quality.node_live import LiveLoop
 from grasp_quality.node_markers import Display
 from grasp_quality.node_outputs import Outputs
+from grasp_quality.node_security import unsecured_reason
 from grasp_quality.node_services import Services
 from grasp_quality.warm_up import warm_up
 from grasp_quality_msgs.msg import ContactArray
@@ -155,7 +157,13 @@ class GraspQualityNode(LifecycleNode):
         return super().on_configure(state)
 
     def on_activate(self, state):
-        """Begin to compute and to publish."""
+        """Begin to compute and to publish, unless security that was asked for is missing."""
+        unsecured = unsecured_reason(os.environ)
+        if unsecured and not self.settings.allow_unsecured:
+            self.get_logger().error(unsecured)
+            return TransitionCallbackReturn.FAILURE
+        if unsecured:
+            self.get_logger().warning(f'allow_unsecured is set: {unsecured}')
         result = super().on_activate(state)
         self.active = result == TransitionCallbackReturn.SUCCESS
         return result

@@ -54,13 +54,12 @@ def main(args=None):
 
 
 def _make_node():
-    import rclpy
     from rclpy.lifecycle import TransitionCallbackReturn
 
     from grasp_quality.lifecycle_node import GraspQualityNode
     try:
         node = GraspQualityNode()
-    except (ValueError, rclpy.exceptions.ParameterException) as exc:
+    except Exception as exc:  # ValueError, ParameterException, RCLError of the middleware, ...
         print(f'grasp_quality_node: {exc}', file=sys.stderr)
         return None
     if node.settings.autostart:

@@ -73,6 +73,7 @@ class Settings:
     friction_noise: float = 0.0
     load_noise: tuple = ()
     autostart: bool = True
+    allow_unsecured: bool = False
 
     def __post_init__(self):
         """Check the rules that a range cannot say."""
@@ -179,6 +180,8 @@ TABLE = {
                    'ty tz [N m] in the object frame, for alpha_quantile; not set: none', None,
                    False),
     'autostart': (Type.BOOL, 'Configure and activate at start', None, True),
+    'allow_unsecured': (Type.BOOL, 'Activate although security was asked for '
+                        '(ROS_SECURITY_ENABLE) and may not be in force', None, True),
 }
 
 

@@ -4,9 +4,11 @@
 The services of the node: each reads a request, asks the core once, and fills the response.
 
 ``Services`` gives every handler the same boundary: whatever goes wrong becomes a fresh response
-with a result code, so that a client always gets an answer and never half of one.
+with a result code, so that a client always gets an answer and never half of one. What may take
+long is awaited (``node_worker``), so that the live loop goes on; the inputs are read before.
 """
 
+import inspect
 import math
 import time
 
@@ -14,8 +16,11 @@ from grasp_quality.ball import ellipsoid_scale
 from grasp_quality.directions import force_grid
 from grasp_quality.holding import minimum_forces
 from grasp_quality.measures import evaluate, wrench_map
+from grasp_quality.node_worker import Worker
 from grasp_quality.robust import robust_alpha
 from grasp_quality.solution import Status
+from grasp_quality.task import TaskWrench
+from grasp_quality.time_limit import TimeLimit
 from grasp_quality_msgs import srv
 from msg_adapters.errors import InvalidMessageError, NotActiveError
 from msg_adapters.forces import force_array
@@ -26,9 +31,11 @@ from msg_adapters.tasks import (
 from msg_adapters.uncertainty import fill_robust_alpha, noise_from, sampling_from
 from msg_adapters.worst_case import ellipsoid_from, fill_ball_radius, width_from
 from msg_adapters.wrenches import to_wrench
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from std_msgs.msg import Header
 
 SURFACE_SAMPLES = 32
+MANY_CONTACTS = 64  # from which on even a single task may take long
 
 
 class Services:
@@ -39,6 +46,7 @@ class Services:
         self._settings = settings
         self._is_active = is_active
         self._logger = node.get_logger()
+        self._worker = Worker(node)
         for kind, handler in (
                 (srv.EvaluateTaskWrench, self.evaluate_task_wrench),
                 (srv.EvaluateTaskCone, self.evaluate_task_cone),
@@ -48,16 +56,21 @@ class Services:
                 (srv.RobustAlpha, self.robust_alpha),
                 (srv.BallRadius, self.ball_radius),
                 (srv.SetTask, self.set_task)):
-            node.create_service(kind, f'~/{handler.__name__}', self._bounded(handler))
+            waits = inspect.iscoroutinefunction(handler)
+            node.create_service(
+                kind, f'~/{handler.__name__}', self._bounded(handler),
+                callback_group=MutuallyExclusiveCallbackGroup() if waits else None)
 
     def _bounded(self, handler):
-        def answer(request, response):
+        async def answer(request, response):
             started = time.perf_counter()
             try:
                 if not self._is_active():
                     raise NotActiveError('the node is not active: configure and activate it, as '
                                          'with ros2 lifecycle set')
-                handler(request, response)
+                answering = handler(request, response)
+                if answering is not None:
+                    await answering
             except Exception as exc:
                 response = type(response)(result=error_result(exc))
                 self._logger.warning(
@@ -78,14 +91,20 @@ class Services:
         load = load_from(request.external_wrench, transform)
         return grasp, Header(stamp=stamp, frame_id=frame), transform, load
 
-    def _evaluate(self, grasp, task, load):
-        settings = self._settings()
-        return evaluate(grasp, task, load, settings.barrier_weight, settings.solver_time_limit)
+    def _limit(self):
+        """Begin to count the time of this question; waiting for the worker is part of it."""
+        return TimeLimit.of(self._settings().solver_time_limit)
 
-    def evaluate_task_wrench(self, request, response):
+    async def _evaluate(self, grasp, task, load):
+        question = grasp, task, load, self._settings().barrier_weight, self._limit()
+        if isinstance(task, TaskWrench) and len(grasp) < MANY_CONTACTS:
+            return evaluate(*question)
+        return await self._worker.run(evaluate, *question)
+
+    async def evaluate_task_wrench(self, request, response):
         """Answer the largest alpha of one wrench, and its forces."""
         grasp, header, transform, load = self._question(request)
-        solution = self._evaluate(grasp, wrench_task(request.task_wrench, transform), load)
+        solution = await self._evaluate(grasp, wrench_task(request.task_wrench, transform), load)
         response.result = status_result(solution.status, pinned=solution.pinned)
         response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
         response.alpha_lower, response.holdable = solution.alpha_lower, solution.holdable
@@ -93,11 +112,11 @@ class Services:
         response.limiting_contact = solution.limiting_contact
         response.dalpha_dexternal_wrench = to_wrench(solution.dalpha_dexternal_wrench)
 
-    def evaluate_task_cone(self, request, response):
+    async def evaluate_task_cone(self, request, response):
         """Answer the largest alpha_z inside a cone of wrenches."""
         grasp, header, transform, load = self._question(request)
         task = cone_task(request, transform, SURFACE_SAMPLES)
-        solution = self._evaluate(grasp, task, load)
+        solution = await self._evaluate(grasp, task, load)
         response.result = status_result(solution.status)
         if solution.feasible:
             response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
@@ -106,11 +125,11 @@ class Services:
         response.optimal_wrench = to_wrench(solution.wrench)
         response.forces = force_array(header, grasp, solution.forces, solution.cone_usage)
 
-    def evaluate_task_polytope(self, request, response):
+    async def evaluate_task_polytope(self, request, response):
         """Answer alpha of every wrench by itself, and what they guarantee together."""
         grasp, header, transform, load = self._question(request)
         task = polytope_task(request, transform, self._settings().max_request_size)
-        answer = self._evaluate(grasp, task, load)
+        answer = await self._evaluate(grasp, task, load)
         response.result = status_result(answer.status)
         if answer.status is Status.INFEASIBLE:
             return
@@ -120,17 +139,17 @@ class Services:
         response.forces = [force_array(header, grasp, s.forces, s.cone_usage)
                            for s in answer.solutions]
 
-    def minimum_forces(self, request, response):
+    async def minimum_forces(self, request, response):
         """Answer the smallest forces that balance the external wrench."""
         grasp, header, _, load = self._question(request)
-        answer = minimum_forces(grasp, load, self._settings().solver_time_limit)
+        answer = await self._worker.run(minimum_forces, grasp, load, self._limit())
         response.result = status_result(answer.status, (
             f'no forces within cones and caps balance the external wrench: {answer.peak:.4g} '
             f'times the caps would be needed, {answer.violation:.4g} N remain unbalanced'))
         response.peak = answer.peak if math.isfinite(answer.peak) else 0.0
         response.forces = force_array(header, grasp, answer.forces, answer.cone_usage)
 
-    def wrench_map(self, request, response):
+    async def wrench_map(self, request, response):
         """Answer alpha for many directions."""
         grasp, _, transform, load = self._question(request)
         settings = self._settings()
@@ -139,7 +158,8 @@ class Services:
                 request.directions, transform, settings.max_request_size, 'directions')
         else:
             directions = self._grid(request.resolution, settings)
-        answer = wrench_map(grasp, directions, load, time_limit_s=settings.solver_time_limit)
+        answer = await self._worker.run(
+            wrench_map, grasp, directions, load, time_limit_s=self._limit())
         if not answer.feasible.any():
             response.result = status_result(Status.INFEASIBLE)
             return
@@ -159,22 +179,22 @@ class Services:
                 f'max_request_size), got {steps}, which gives {2 * steps ** 2}')
         return force_grid(steps)
 
-    def robust_alpha(self, request, response):
+    async def robust_alpha(self, request, response):
         """Answer the quantile of alpha under uncertain contacts, friction and load."""
         grasp, _, transform, load = self._question(request)
         settings = self._settings()
         sampling = sampling_from(request, settings.quantile_level, settings.max_request_size)
-        fill_robust_alpha(response, robust_alpha(
-            grasp, wrench_task(request.task_wrench, transform), load, **noise_from(request),
-            **sampling, time_limit_s=settings.solver_time_limit))
+        fill_robust_alpha(response, await self._worker.run(
+            robust_alpha, grasp, wrench_task(request.task_wrench, transform), load,
+            **noise_from(request), **sampling, time_limit_s=self._limit()))
 
-    def ball_radius(self, request, response):
+    async def ball_radius(self, request, response):
         """Answer the radius of the largest ball of wrenches, the worst case."""
         grasp, _, transform, _ = self._question(request)
         settings = self._settings()
         ellipsoid = ellipsoid_from(request, transform, settings.max_request_size)
-        answer = ellipsoid_scale(
-            grasp, ellipsoid, width_from(request), settings.solver_time_limit)
+        answer = await self._worker.run(
+            ellipsoid_scale, grasp, ellipsoid, width_from(request), self._limit())
         fill_ball_radius(response, answer)
 
     def set_task(self, request, response):

@@ -53,9 +53,10 @@ def end_with_parent():
 class Process:
     """A child in a session of its own, with a log file."""
 
-    def __init__(self, command, log, cwd=None):
+    def __init__(self, command, log, cwd=None, environment=None):
         self._log = Path(log)
-        environment = {**os.environ, 'ROS_DOMAIN_ID': str(claim_domain()[0])}
+        environment = {
+            **os.environ, 'ROS_DOMAIN_ID': str(claim_domain()[0]), **(environment or {})}
         with open(self._log, 'wb') as output:
             self.popen = subprocess.Popen(
                 [str(part) for part in command], stdin=subprocess.DEVNULL, stdout=output,
@@ -89,14 +90,14 @@ class Process:
         return self.wait()
 
 
-def start_node(log, namespace, *arguments, **parameters):
+def start_node(log, namespace, *arguments, environment=None, **parameters):
     """Start grasp_quality_node in a namespace; parameters are overrides as on a command line."""
     prefix = Path(get_package_prefix('grasp_quality'))
     command = [prefix / 'lib' / 'grasp_quality' / 'grasp_quality_node', *arguments,
                '--ros-args', '-r', f'__ns:={namespace}']
     for name, value in parameters.items():
         command += ['-p', f'{name}:={value}']
-    return Process(command, log)
+    return Process(command, log, environment=environment)
 
 
 def start_audit(log, namespace):
