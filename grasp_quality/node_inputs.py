@@ -17,6 +17,7 @@ from grasp_quality.measures import slip_margin
 from msg_adapters.contacts import contacts_from_array, contacts_from_poses
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
 from msg_adapters.frames import object_frame_of, transform_to
+from msg_adapters.joint_limits import joint_limits_from
 from msg_adapters.measured import local_force
 from msg_adapters.stamps import stamp_ns
 from msg_adapters.tasks import HeldLoad, HeldTask, NoFrame
@@ -180,7 +181,9 @@ class Inputs:
         contacts = read(message, settings.contact_defaults, transform)
         if not len(contacts):
             raise NoContactsError('the newest contact message holds no contacts')
-        return Grasp(contacts, settings.force_bound), frame
+        limits = None if hasattr(message, 'poses') else joint_limits_from(
+            message, contacts, transform, settings.max_request_size)
+        return Grasp(contacts, settings.force_bound, limits), frame
 
     def transform(self, header, frame, stamp):
         """Transform from a header's frame to the object frame at a time; None for the identity."""
