@@ -14,6 +14,7 @@ import os
 from geometry_msgs.msg import PoseArray, WrenchStamped
 from grasp_quality import node_parameters as parameters
 from grasp_quality.node_diagnostics import Monitor, PERIOD_S
+from grasp_quality.node_holding import HoldingForces
 from grasp_quality.node_inputs import Inputs
 from grasp_quality.node_live import LiveLoop
 from grasp_quality.node_markers import Display
@@ -59,7 +60,7 @@ class GraspQualityNode(LifecycleNode):
         self._display = Display(self, current)
         self._live = LiveLoop(
             self._inputs, self._outputs, current, self._monitor, self._display,
-            lambda: self.get_clock().now().to_msg())
+            HoldingForces(self.get_logger()), lambda: self.get_clock().now().to_msg())
         self._handlers = Services(self, self._inputs, current, lambda: self.active)
         self._subscribe()
         steady = Clock(clock_type=ClockType.STEADY_TIME)

@@ -15,7 +15,7 @@ from grasp_quality.measures import evaluate
 from grasp_quality.node_inputs import measured_margin
 from grasp_quality.node_quantile import live_quantile
 from grasp_quality.problem import NO_WRENCH
-from grasp_quality_msgs.msg import GraspQuality
+from grasp_quality_msgs.msg import GraspQuality, ResultCode
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
 from msg_adapters.results import error_result, status_result
 from msg_adapters.stamps import to_duration
@@ -27,12 +27,13 @@ from std_msgs.msg import Header
 class LiveLoop:
     """Evaluates ``inputs`` and publishes on ``outputs`` and ``display``; ``monitor`` counts."""
 
-    def __init__(self, inputs, outputs, settings, monitor, display, now):
+    def __init__(self, inputs, outputs, settings, monitor, display, holding, now):
         self._inputs = inputs
         self._outputs = outputs
         self._settings = settings
         self._monitor = monitor
         self._display = display
+        self._holding = holding
         self._now = now
 
     def evaluate(self):
@@ -42,6 +43,9 @@ class LiveLoop:
             scene = self._inputs.scene()
             quality, answer, load = self._answer(scene)
             self._outputs.publish(quality, scene.grasp, *answer)
+            if quality.result.code == ResultCode.OPTIMAL:
+                left = self._settings().max_contact_age - self._inputs.age_s()
+                self._holding.publish(self._outputs, quality, scene.grasp, load, left)
             self._display.show(scene, load, quality, *answer)
             self._monitor.count(quality)
         except Exception as exc:

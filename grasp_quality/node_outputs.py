@@ -29,6 +29,7 @@ class Outputs:
         self._alpha = self._publisher(Float64, '~/alpha')
         self._quality = self._publisher(GraspQuality, '~/quality')
         self._forces = self._publisher(ContactForceArray, '~/contact_forces')
+        self._holding = self._publisher(ContactForceArray, '~/holding_forces')
         self._wrenches = {}  # contact name: publisher, or None where the name makes no topic
 
     def publish(self, quality, grasp=None, forces=(), cone_usage=()):
@@ -59,6 +60,18 @@ class Outputs:
             self._alpha.publish(Float64(data=quality.alpha if optimal else 0.0))
         self._publish_wrenches(
             quality.header.stamp, dict(zip(grasp.names, forces)) if optimal else {})
+        if not optimal and self.holding_wanted:
+            self.publish_holding(quality.header, None)
+
+    @property
+    def holding_wanted(self):
+        """Whether somebody listens to the holding forces."""
+        return self._holding.get_subscription_count() > 0
+
+    def publish_holding(self, header, held):
+        """Publish HoldForces, or for None that there are none."""
+        self._holding.publish(force_array(header) if held is None else force_array(
+            header, held.grasp, held.forces, held.cone_usage))
 
     def publish_failure(self, result, stamp, frame=''):
         """Publish a ResultCode other than OPTIMAL, stamped with its contacts' time or now."""
@@ -67,7 +80,7 @@ class Outputs:
     def flush(self, timeout_s, others=()):
         """Wait until all subscribers have what was published: destroying a publisher drops it."""
         deadline = time.monotonic() + timeout_s
-        own = (self._forces, self._quality, self._alpha, *self._wrenches.values())
+        own = (self._forces, self._holding, self._quality, self._alpha, *self._wrenches.values())
         for publisher in (*own, *others):
             left = deadline - time.monotonic()
             if publisher is not None and left > 0.0:

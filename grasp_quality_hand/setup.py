@@ -15,7 +15,7 @@ setup(
         (f'share/{NAME}', ['package.xml']),
     ],
     install_requires=[
-        'setuptools', 'numpy', 'scipy', 'mujoco-core', 'matplotlib', 'trimesh', 'viser'],
+        'setuptools', 'numpy', 'scipy', 'mujoco-core', 'matplotlib', 'pin', 'trimesh', 'viser'],
     extras_require={'test': ['pytest']},
     zip_safe=True,
     author='The grasp_quality authors',
@@ -28,6 +28,8 @@ setup(
             'demo = grasp_quality_hand.demo:main',
             'fetch_dclaw = grasp_quality_hand.fetch_dclaw:main',
             'force_audit = grasp_quality_hand.force_audit_node:main',
+            'force_to_effort = grasp_quality_hand.force_to_effort:main',
+            'holding_load = grasp_quality_hand.holding_load:main',
             'simulated_hand = grasp_quality_hand.simulated_hand_node:main',
             'viewer = grasp_quality_hand.viewer:main',
         ],

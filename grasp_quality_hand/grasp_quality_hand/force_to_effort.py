@@ -1,0 +1,189 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Node force_to_effort: contact forces and joint states in, joint efforts out.
+
+A ros2_control JointGroupEffortController holds its last command for ever; so this node commands
+at its own rate and never stops once it has begun: without good forces it goes to holding efforts,
+and on SIGINT or SIGTERM it gets there before it ends.
+"""
+
+import signal
+import sys
+import time
+from typing import Any, Callable, Optional
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from geometry_msgs.msg import PoseStamped
+from grasp_quality_hand.contact_pushes import Pushes
+from grasp_quality_hand.effort_bridge import FramedPushes, Joints, ObjectPose, Report
+from grasp_quality_hand.effort_command import Phase
+from grasp_quality_hand.effort_inputs import Now
+from grasp_quality_hand.force_to_effort_parameters import declare, make_bridge
+from grasp_quality_hand.hand_kinematics import BadHand
+from grasp_quality_msgs.msg import ContactForceArray
+from msg_adapters.errors import InvalidMessageError
+from msg_adapters.poses import pose_arrays
+from msg_adapters.qos import newest_command, newest_sample
+from msg_adapters.received import read_forces, read_joint_state
+from msg_adapters.stamps import stamp_ns
+import numpy as np
+from numpy.typing import NDArray
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
+
+NONE = Pushes((), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
+REPORT_PERIOD_S = 1.0
+ENDING_EXTRA_S = 0.5  # beyond the ramp, after which the node ends anyhow
+
+
+class ForceToEffort(Node):
+    """The thin ROS side of an EffortBridge."""
+
+    def __init__(self) -> None:
+        super().__init__('force_to_effort')
+        values = declare(self)
+        self._bridge, self._hand = make_bridge(values)
+        self.ramp_time = float(values['ramp_time'])
+        self.report: Optional[Report] = None
+        self._told = ('', 0.0)
+        self._commands = 0
+        self._largest_share = 0.0
+        self._bad = ''
+        self._publisher = self.create_publisher(
+            Float64MultiArray, 'effort_controller/commands', newest_command())
+        self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._listen(ContactForceArray, 'grasp_quality/contact_forces', self._on_forces,
+                     newest_command())
+        self._listen(JointState, 'joint_states', self._on_joints, newest_sample())
+        self._listen(PoseStamped, 'object_pose', self._on_pose, newest_sample())
+        self.create_timer(1.0 / values['rate'], self._guarded(self._on_tick))
+        self.create_timer(REPORT_PERIOD_S, self._guarded(self._tell))
+
+    def _listen(self, kind: Any, topic: str, callback: Callable[[Any], None], qos: Any) -> None:
+        self.create_subscription(kind, topic, self._guarded(callback), qos)
+
+    def _guarded(self, callback: Callable[..., None]) -> Callable[..., None]:
+        """Let no exception out of a callback; a message that cannot be used is not there."""
+        def run(*arguments: Any) -> None:
+            try:
+                callback(*arguments)
+            except Exception as error:
+                self._bad = f'{type(error).__name__}: {error}'
+                self.get_logger().error(self._bad, throttle_duration_sec=1.0)
+        return run
+
+    def _now(self) -> Now:
+        return Now(self.get_clock().now().nanoseconds, time.monotonic())
+
+    def _on_forces(self, message: ContactForceArray) -> None:
+        try:
+            names, points, wrenches = read_forces(message)
+        except InvalidMessageError as error:  # whoever sends such forces has no good ones
+            self._bridge.forces.put(FramedPushes('', NONE, f'bad contact forces: {error}'), 0,
+                                    self._now())
+            return
+        pushes = Pushes(names, points, wrenches[:, :3], wrenches[:, 3:])
+        self._bridge.forces.put(FramedPushes(message.header.frame_id, pushes),
+                                stamp_ns(message.header.stamp), self._now())
+
+    def _on_joints(self, message: JointState) -> None:
+        self._bridge.joints.put(Joints(*read_joint_state(message)),
+                                stamp_ns(message.header.stamp), self._now())
+
+    def _on_pose(self, message: PoseStamped) -> None:
+        p, R = pose_arrays(message.pose, 'pose')
+        self._bridge.poses.put(ObjectPose(message.header.frame_id, R, np.asarray(p)),
+                               stamp_ns(message.header.stamp), self._now())
+
+    def _on_tick(self) -> None:
+        efforts, self.report = self._bridge.tick(self._now())
+        if efforts is not None:
+            self._publisher.publish(Float64MultiArray(data=efforts.tolist()))
+            self._count(efforts)
+        if self.report.phase.value != self._told[0]:
+            self._tell()
+
+    def _count(self, efforts: NDArray[np.float64]) -> None:
+        self._commands += 1
+        share = float(np.abs(efforts / self._hand.effort_limits).max())
+        self._largest_share = max(self._largest_share, share)
+
+    def _tell(self) -> None:
+        """Publish the state; log a change of it."""
+        if self.report is None:
+            return
+        report, (last, since) = self.report, self._told
+        elapsed = max(time.monotonic() - since, 1e-9) if since else REPORT_PERIOD_S
+        status = DiagnosticStatus(
+            name=f'{self.get_name()}: joint efforts', hardware_id=self._hand.base_frame,
+            message=': '.join(filter(None, [report.phase.value, report.reason])),
+            level=_level(report))
+        if 0.0 < report.scale < 1.0:
+            status.message += (f'; forces scaled to {100.0 * report.scale:.3g} % to stay within '
+                               'the effort limits')
+        now, bridge = self._now(), self._bridge
+        values = {
+            'phase': report.phase.name, 'scale of the forces': f'{report.scale:.4g}',
+            'largest share of an effort limit': f'{self._largest_share:.4g}',
+            'commands per second': f'{self._commands / elapsed:.1f}',
+            **{f'age of {name} [s]': f'{age:.3g}' for name, age in bridge.ages(now).items()},
+            'late messages dropped': str(
+                bridge.forces.dropped + bridge.joints.dropped + bridge.poses.dropped),
+            'last bad message': self._bad}
+        status.values = [KeyValue(key=key, value=value) for key, value in values.items()]
+        message = DiagnosticArray(status=[status])
+        message.header.stamp = self.get_clock().now().to_msg()
+        self._diagnostics.publish(message)
+        if report.phase.value != last:
+            log = self.get_logger()
+            (log.info if report.phase is Phase.FOLLOWING else log.warning)(status.message)
+        self._told = (report.phase.value, time.monotonic())
+        self._commands, self._largest_share = 0, 0.0
+
+    def end(self) -> None:
+        """Follow nothing any more: go to the holding efforts."""
+        self._bridge.ending = 'the node is ending'
+
+
+def _level(report: Report) -> bytes:
+    if report.phase is Phase.FOLLOWING and report.scale == 1.0:
+        return bytes(DiagnosticStatus.OK)
+    if report.blind and report.phase in (Phase.RAMPING, Phase.HOLDING):
+        return bytes(DiagnosticStatus.ERROR)
+    return bytes(DiagnosticStatus.WARN)
+
+
+def main(args: Optional[list[str]] = None) -> int:
+    """Run the node until a signal comes and the hand holds; return the exit code."""
+    stopping: list[int] = []
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda received, frame: stopping.append(received))
+    try:
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+        node = ForceToEffort()
+    except (BadHand, rclpy.exceptions.ParameterException) as error:
+        print(f'force_to_effort: {error}', file=sys.stderr)
+        rclpy.try_shutdown()
+        return 1
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    while not stopping:
+        executor.spin_once(timeout_sec=0.1)
+    node.end()
+    deadline = time.monotonic() + node.ramp_time + ENDING_EXTRA_S
+    while time.monotonic() < deadline and (
+            node.report is None or node.report.phase in (Phase.FOLLOWING, Phase.RAMPING)):
+        executor.spin_once(timeout_sec=0.1)
+    executor.shutdown()
+    node.destroy_node()
+    rclpy.try_shutdown()
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

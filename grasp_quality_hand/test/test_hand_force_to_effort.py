@@ -1,0 +1,277 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""force_to_effort as a black box, behind a real quality node that gets killed."""
+
+import math
+import os
+import signal
+import subprocess
+import time
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Point, Pose, PoseArray, PoseStamped, Quaternion
+from grasp_quality_hand.demo_processes import claim_domain, discovery_environment, executable
+from grasp_quality_msgs.msg import ContactForce, ContactForceArray
+import numpy as np
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray, Header
+from two_fingers import LENGTH, urdf
+
+DEADLINE = 30.0     # for anything that is waited for [s]
+START = 120.0       # a first start may compile
+FEED_PERIOD = 0.01
+CAP = 3.0           # [N]
+PRESS = 2.0 / 3.0 * CAP   # of a pair of fingers that holds nothing: 2 / (2 + cap weight)
+FOLLOWED = [-PRESS * LENGTH, PRESS * LENGTH]    # right, left [N m]
+HELD = [-0.25, 0.15]
+EXACT = 1e-6
+HALF = math.sqrt(0.5)
+
+
+class Rig:
+    """A client that plays hand and object, and the processes beside it."""
+
+    def __init__(self, folder, domain):
+        self.folder = folder
+        (folder / 'hand.urdf').write_text(urdf())
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=domain)
+        self.node = rclpy.create_node('test_client', context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.commands, self.status = [], []
+        self.node.create_subscription(
+            Float64MultiArray, '/effort_controller/commands', self.commands.append, 10)
+        self.node.create_subscription(DiagnosticArray, '/diagnostics', self._on_diagnostics, 10)
+        self.contacts = self.node.create_publisher(
+            PoseArray, '/grasp_quality/contact_poses', qos_profile_sensor_data)
+        self.joints = self.node.create_publisher(JointState, '/joint_states', 10)
+        self.pose = self.node.create_publisher(
+            PoseStamped, '/object_pose', qos_profile_sensor_data)
+        self.processes = {}
+        self.fed = 0.0
+        self.positions = [0.0, 0.0]
+
+    def _on_diagnostics(self, message):
+        self.status += [s for s in message.status if 'joint efforts' in s.name]
+
+    def start(self, name, package, *arguments):
+        log = open(self.folder / f'{name}.txt', 'ab')
+        self.processes[name] = subprocess.Popen(
+            [str(executable(package, name)), '--ros-args', *arguments], start_new_session=True,
+            stdout=log, stderr=subprocess.STDOUT)
+
+    def start_quality(self):
+        self.start('grasp_quality_node', 'grasp_quality', '-p', 'contact_names:=[left, right]',
+                   '-p', f'max_normal_force:={CAP}',
+                   '-p', 'task_wrench:=[0.0,0.0,1.0,0.0,0.0,0.0]')
+
+    def start_bridge(self, *arguments):
+        self.start('force_to_effort', 'grasp_quality_hand',
+                   '-p', f'robot_description_file:={self.folder / "hand.urdf"}',
+                   '-p', 'joints:=[right_hinge, left_hinge]',
+                   '-p', 'contact_names:=[left, right]',
+                   '-p', 'contact_links:=[left_finger, right_finger]',
+                   '-p', 'max_joint_age:=1.0', '-p', 'max_pose_age:=1.0',
+                   '-r', 'grasp_quality/contact_forces:=grasp_quality/holding_forces', *arguments)
+
+    def feed(self):
+        """Publish contacts, joint states and the pose of the object, with one stamp."""
+        stamp = self.node.get_clock().now().to_msg()
+        self.contacts.publish(PoseArray(header=Header(stamp=stamp, frame_id='object'), poses=[
+            Pose(position=Point(x=-0.05), orientation=Quaternion(y=HALF, w=HALF)),
+            Pose(position=Point(x=0.05), orientation=Quaternion(y=-HALF, w=HALF))]))
+        self.joints.publish(JointState(
+            header=Header(stamp=stamp), name=['left_hinge', 'right_hinge', 'elsewhere'],
+            position=[*self.positions, 0.0], effort=[0.0, 0.0, 0.0]))
+        self.pose.publish(PoseStamped(
+            header=Header(stamp=stamp, frame_id='palm'), pose=Pose(position=Point(z=LENGTH))))
+
+    def until(self, condition, feeding=True, deadline=DEADLINE):
+        """Listen, and feed meanwhile, until condition() gives something true; return it."""
+        end = time.monotonic() + deadline
+        while not (result := condition()):
+            assert time.monotonic() < end, (
+                f'waited in vain; last {[list(c.data) for c in self.commands[-1:]]}, '
+                f'{self.status[-1:]}')
+            if feeding and time.monotonic() - self.fed >= FEED_PERIOD:
+                self.fed = time.monotonic()
+                self.feed()
+            self.executor.spin_once(timeout_sec=0.002)
+        return result
+
+    def until_commanded(self, efforts, **options):
+        """Wait until the newest command is this one, from now on."""
+        self.commands.clear()
+        self.until(lambda: self.commands and list(self.commands[-1].data) == pytest.approx(
+            efforts, abs=EXACT), **options)
+        self.check()
+
+    def until_told(self, words, **options):
+        """Wait for a diagnosis with these words, from now on; return it."""
+        self.status.clear()
+        return self.until(
+            lambda: next((s for s in self.status if words in s.message), None), **options)
+
+    def check(self):
+        """Every command has the right length, and numbers within the limits."""
+        for command in self.commands:
+            efforts = np.array(command.data)
+            assert efforts.shape == (2,) and (np.abs(efforts) <= 2.0).all()
+
+    def close(self):
+        for process in self.processes.values():
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+                assert process.wait(DEADLINE) == 0
+        self.executor.shutdown()
+        self.node.destroy_node()
+        rclpy.shutdown(context=self.context)
+
+
+@pytest.fixture(scope='module')
+def domain():
+    """Take a ROS domain; put the environment back afterwards."""
+    before = {name: os.environ.get(name) for name in discovery_environment(0)}
+    claim = claim_domain()
+    yield int(os.environ['ROS_DOMAIN_ID'])
+    claim.close()
+    for name, value in before.items():
+        os.environ.pop(name)
+        if value is not None:
+            os.environ[name] = value
+
+
+@pytest.fixture(scope='module')
+def rig(domain, tmp_path_factory):
+    """Return a rig with a quality node and a bridge that follows it."""
+    rig = Rig(tmp_path_factory.mktemp('bridge'), domain)
+    rig.start_quality()
+    rig.start_bridge('-p', f'holding_efforts:={HELD}')
+    try:
+        rig.until(lambda: rig.commands, deadline=START)
+        yield rig
+    finally:
+        rig.close()
+
+
+def test_forces_become_efforts_in_the_order_of_the_joints(rig):
+    rig.until_commanded(FOLLOWED)
+    told = rig.until_told('following the contact forces')
+    assert told.level == b'\x00'
+    values = {item.key: item.value for item in told.values}
+    assert values['phase'] == 'FOLLOWING' and float(values['scale of the forces']) == 1.0
+
+
+def test_a_killed_force_publisher_is_survived_and_comes_back(rig):
+    """Kill -9: the efforts go to the holding ones, and follow again once it is back."""
+    rig.until_commanded(FOLLOWED)
+    rig.processes['grasp_quality_node'].kill()
+    rig.until_commanded(HELD)
+    told = rig.until_told('at the holding efforts')
+    assert told.level == b'\x01' and 'contact forces are older' in told.message
+    rig.start_quality()
+    rig.until_commanded(FOLLOWED, deadline=START)
+
+
+def test_a_node_that_fails_sends_empty_forces_and_the_hand_holds(rig):
+    """No contacts any more: the quality node says so, and joint states go on."""
+    rig.until_commanded(FOLLOWED)
+    feed = rig.feed
+
+    def feed_without_contacts():
+        contacts, rig.contacts = rig.contacts, type('Nobody', (), {'publish': lambda *_: None})()
+        feed()
+        rig.contacts = contacts
+
+    rig.feed = feed_without_contacts
+    rig.until_told('are empty')
+    rig.until_commanded(HELD)
+    rig.feed = feed
+    rig.until_commanded(FOLLOWED)
+
+
+def test_silence_of_the_joints_is_told_as_an_error(rig):
+    rig.until_commanded(FOLLOWED)
+    rig.status.clear()
+    rig.until(lambda: any(s.level == b'\x02' for s in rig.status), feeding=False)
+    rig.until_commanded(HELD, feeding=False)
+    rig.until_commanded(FOLLOWED)
+
+
+@pytest.mark.parametrize('spoil, words', [
+    (lambda forces: setattr(forces[0].wrench.force, 'x', math.nan), 'bad contact forces'),
+    (lambda forces: setattr(forces[0].position, 'y', math.inf), 'bad contact forces'),
+    (lambda forces: setattr(forces[1], 'name', 'thumb'), "contacts ['thumb'] have no link")])
+def test_forces_that_are_no_use_make_it_hold(rig, spoil, words):
+    """Someone else publishes among good forces: those are followed again afterwards."""
+    publisher = rig.node.create_publisher(
+        ContactForceArray, '/grasp_quality/holding_forces', 1)
+    rig.until(publisher.get_subscription_count)
+
+    def publish():
+        message = ContactForceArray(header=Header(
+            stamp=rig.node.get_clock().now().to_msg(), frame_id='object'))
+        message.forces = [ContactForce(name='left'), ContactForce(name='right')]
+        spoil(message.forces)
+        publisher.publish(message)
+
+    def told():
+        publish()
+        return next((s for s in rig.status if words in s.message), None)
+
+    rig.status.clear()
+    rig.until(told)
+    rig.check()
+    rig.node.destroy_publisher(publisher)
+    rig.until_commanded(FOLLOWED)
+
+
+def test_joint_states_that_are_no_numbers_are_not_there(rig):
+    rig.until_commanded(FOLLOWED)
+    rig.positions = [math.nan, 0.0]
+    told = rig.until_told('at the holding efforts')
+    assert 'joint states are older' in told.message
+    rig.positions = [0.0, 0.0]
+    rig.until_commanded(FOLLOWED)
+
+
+def test_the_last_command_before_the_end_is_the_holding_one(rig):
+    rig.until_commanded(FOLLOWED)
+    process = rig.processes['force_to_effort']
+    process.send_signal(signal.SIGTERM)
+    rig.until(lambda: process.poll() is not None)
+    assert process.returncode == 0
+    rig.until(lambda: list(rig.commands[-1].data) == pytest.approx(HELD, abs=EXACT))
+    rig.check()
+
+
+def test_it_begins_again_where_the_hand_is(rig):
+    """Silent until it has good forces, and then no jump from the efforts that are measured."""
+    rig.commands.clear()
+    rig.start_bridge('-p', 'max_effort_rate:=1.0')
+    rig.until(lambda: rig.commands, deadline=START)
+    assert np.abs(rig.commands[0].data).max() <= 0.06  # of 0.2, from zero
+    rig.until_commanded(FOLLOWED)
+
+
+@pytest.mark.parametrize('parameters, words', [
+    ([], 'contact_names must be unique and contact_links'),
+    (['contact_names:=[a]', 'contact_links:=[b]', 'joints:=[c]'], 'give the URDF of the hand'),
+    (['contact_names:=[a]', 'contact_links:=[b]', 'joints:=[c]',
+      'robot_description_file:=/nowhere'], "'/nowhere' cannot be read"),
+    (['contact_names:=[a]', 'contact_links:=[b]', 'joints:=[c]', 'robot_description:=<robot/>'],
+     'robot_description is no URDF'),
+    (['rate:=0.0'], 'rate')])
+def test_what_is_wrong_with_parameters_is_said_in_one_line(domain, parameters, words):
+    command = [str(executable('grasp_quality_hand', 'force_to_effort')), '--ros-args']
+    for parameter in parameters:
+        command += ['-p', parameter]
+    done = subprocess.run(command, timeout=DEADLINE, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert words in done.stderr and 'Traceback' not in done.stderr
