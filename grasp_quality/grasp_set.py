@@ -11,7 +11,7 @@ one grasp (samples of uncertain contacts) from ``GraspSet.varied``:
     varied = GraspSet.varied(grasp, positions=..., normals=..., friction=...)  # (M, k, 3), (M, k)
     evaluate_many(varied, task, external_wrench=loads)  # loads (M, 6) or (6,)
 
-Any Grasp objects come from ``GraspSet.of``; indexing gives a Grasp.
+Grasp objects come from ``GraspSet.of``; indexing gives a Grasp.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
         First contact of every grasp, and the number of all contacts.
     positions : (n, 3) array_like [m]
     rotations : (n, 3, 3) array_like
-        R_object_contact; columns t1, t2, inward normal.
+        R_object_contact.
     friction, torsional_friction : (n,) array_like [-], [m]
         As far as the contact models let them act: zero for what a contact does not transmit.
     max_normal_forces : (n,) array_like [N]
@@ -86,8 +86,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
             raise InvalidGraspError(
                 f'groups must have one entry for each of {n} contacts and is_l2 one for each of '
                 f'{count} grasps, got {self.groups.shape} and {self.is_l2.shape}')
-        if n:
-            self._check()
+        self._check()
 
     def _check(self) -> None:
         R = self.rotations
@@ -97,8 +96,8 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
                  'rotation must be a right-handed orthonormal matrix'),
                 (np.abs(self.positions).max(axis=1) > FARTHEST,
                  f'position must lie within {FARTHEST:g} m of the origin'),
-                (self.friction < 0.0, 'friction must be at least 0'),
-                (self.torsional_friction < 0.0, 'torsional_friction must be at least 0'),
+                ((self.friction < 0.0) | (self.torsional_friction < 0.0),
+                 'friction and torsional_friction must be at least 0'),
                 (self.max_normal_forces <= 0.0, 'max_normal_force must be greater than 0')):
             if broken.any():
                 row = int(np.flatnonzero(broken)[0])
@@ -106,8 +105,8 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
                 raise InvalidContactError(
                     f'grasp {grasp}, contact {row - self.starts[grasp]}: {rule}, got position '
                     f'{self.positions[row].tolist()}, friction {self.friction[row]:g}, '
-                    f'torsional_friction {self.torsional_friction[row]:g}, max_normal_force '
-                    f'{self.max_normal_forces[row]:g}, rotation {R[row].tolist()}')
+                    f'{self.torsional_friction[row]:g} m, cap {self.max_normal_forces[row]:g}, '
+                    f'rotation {R[row].tolist()}')
         largest = np.maximum.reduceat(self.max_normal_forces, self.starts[:-1])
         least = np.minimum.reduceat(self.max_normal_forces, self.starts[:-1])
         if (largest > MAX_CAP_RATIO * least).any():
@@ -152,7 +151,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
         normals : (M, k, 3) array_like
             Inward, of any length but zero; tangents are chosen as ``Contact`` chooses them.
         rotations : (M, k, 3, 3) array_like
-            Instead of ``normals``.
+            Instead of normals.
         model : ContactModel
             One for all, or a sequence with one for each of the k contacts.
         friction, torsional_friction, max_normal_force : array_like [-], [m], [N]
@@ -168,8 +167,8 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
         if (normals is None) == (rotations is None):
             raise InvalidContactError('give exactly one of normals and rotations')
         if rotations is None:
-            frames: Array = frames_of_normals(
-                checked(normals, (M, k, 3), 'normals', InvalidContactError).reshape(-1, 3))
+            given: Array = checked(normals, (M, k, 3), 'normals', InvalidContactError)
+            frames = frames_of_normals(given.reshape(-1, 3))
         else:
             frames = checked(rotations, (M, k, 3, 3), 'rotations', InvalidContactError)
         models = [model] * k if isinstance(model, ContactModel) else list(model)
@@ -191,7 +190,8 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
     @classmethod
     def varied(
             cls, grasp: Grasp, *, positions: ArrayLike | None = None,
-            normals: ArrayLike | None = None, friction: ArrayLike | None = None,
+            normals: ArrayLike | None = None, rotations: ArrayLike | None = None,
+            friction: ArrayLike | None = None,
             torsional_friction: ArrayLike | None = None,
             max_normal_force: ArrayLike | None = None, count: int = 1) -> GraspSet:
         """
@@ -201,8 +201,8 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
         ----------
         grasp : Grasp
             What is varied.
-        positions, normals : (M, k, 3) array_like
-            Contact points [m] and inward normals in the object frame.
+        positions, normals, rotations : (M, k, 3), (M, k, 3), (M, k, 3, 3) array_like
+            Contact points [m], and inward normals or R_object_contact.
         friction, torsional_friction, max_normal_force : (M, k) array_like
             [-], [m], [N]
         count : int
@@ -211,13 +211,14 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
         """
         cls.of([grasp])  # refuses what a set does not know
         k, old = len(grasp), grasp.contacts
-        given = [np.shape(a) for a in (positions, normals, friction, torsional_friction,
-                                       max_normal_force) if a is not None]
+        given = [np.shape(a) for a in (positions, normals, rotations, friction,
+                                       torsional_friction, max_normal_force) if a is not None]
         M = given[0][0] if given and given[0] else count
-        tall = None if normals is not None else np.broadcast_to(grasp.rotations, (M, k, 3, 3))
+        if normals is None and rotations is None:
+            rotations = np.broadcast_to(grasp.rotations, (M, k, 3, 3))
         return cls.of_arrays(
             np.broadcast_to(grasp.positions, (M, k, 3)) if positions is None else positions,
-            normals, rotations=tall, model=old.models,
+            normals, rotations=rotations, model=old.models,
             friction=old.friction if friction is None else friction,
             torsional_friction=(
                 old.torsional_friction if torsional_friction is None else torsional_friction),
@@ -233,12 +234,11 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
         """Return one grasp, its contacts without names; its frictionless ones keep friction 0."""
         index = range(len(self))[index]
         rows = slice(self.starts[index], self.starts[index + 1])
-        groups = self.groups[rows]
-        k = len(groups)
+        k = rows.stop - rows.start
         contacts = ContactSet(
             self.positions[rows], self.rotations[rows], (ContactModel.SFCE,) * k,
             self.friction[rows], self.torsional_friction[rows], self.max_normal_forces[rows],
-            ('',) * k, [str(g) for g in groups])
+            ('',) * k, [str(g) for g in self.groups[rows]])
         return Grasp(contacts, 'l2' if self.is_l2[index] else 'finger')
 
 

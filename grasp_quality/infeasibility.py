@@ -7,6 +7,7 @@ Along a lambda that gains nothing by the task, every force inside cones, bound a
 does less work than the load asks for (docs/derivations.md).
 """
 
+from grasp_quality import judge, kernel_solver
 from grasp_quality.proof import worth_of
 import numpy as np
 
@@ -30,6 +31,12 @@ def infeasibility_margin(problem, direction):
     float, as a share of the caps' total; the problem is infeasible when it is positive.
 
     """
+    if kernel_solver.handles(problem):
+        block, groups = problem.grasp.blocks[0], problem.grasp.blocks[2]
+        return judge.infeasibility_margin(
+            block, groups, problem.virtual.columns[:, 0].copy(),
+            problem.scaled_external_wrench.copy(), problem.reach, np.array(direction[:6]),
+            np.empty(max(problem.grasp.groups) + 1))
     direction = _sparing_the_task(problem.virtual, direction)
     size = np.sqrt(direction @ direction)
     if not size > 0.0:

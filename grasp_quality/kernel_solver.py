@@ -11,12 +11,18 @@ from grasp_quality import kernel
 from grasp_quality.raw_answer import RawAnswer
 import numpy as np
 
+ONE = np.zeros(1, np.int64)  # the only problem's grasp
+
 
 def handles(problem):
     """Whether the kernel knows this kind of problem."""
     return problem.virtual.role == 'task' and not problem.virtual.is_cone \
-        and problem.virtual.columns.shape[1] == 1 and problem.grasp.bound != 'l2' \
-        and problem.grasp.joint_limits is None
+        and problem.virtual.columns.shape[1] == 1 and handles_grasp(problem.grasp)
+
+
+def handles_grasp(grasp):
+    """Whether the kernel knows task wrenches on this grasp: groups are all that bounds forces."""
+    return grasp.bound != 'l2' and grasp.joint_limits is None
 
 
 def run(problem, limit=None, weights=None):
@@ -42,16 +48,18 @@ def run(problem, limit=None, weights=None):
 
     """
     grasp, k = problem.grasp, len(problem.grasp)
-    G, curvature, groups = grasp.blocks
-    work, group = np.empty((k, 8, 4)), np.empty((max(grasp.groups) + 1, 8))
-    multipliers = np.empty(6)
+    block, _, groups = grasp.blocks
+    group_count = max(grasp.groups) + 1
+    alpha, shares, multiplier = np.empty(1), np.empty((1, k, 4)), np.empty((1, 6))
+    nu, status = np.empty((1, group_count)), np.empty(1, np.int8)
     # copies: a read-only array is another type to numba, and would compile the kernel once more
-    converged, alpha, _ = kernel.solve_wrench(
-        G, curvature, groups, problem.virtual.columns[:, 0].copy(),
-        problem.scaled_external_wrench.copy(), float(problem.virtual.objective[0]), problem.reach,
-        np.zeros(k) if weights is None else weights, work, group, multipliers)
+    kernel.solve_many(
+        block[None], ONE, groups, group_count, problem.virtual.columns.T.copy(),
+        problem.scaled_external_wrench[None].copy(), np.array([problem.reach]),
+        np.array([grasp.least_cap]), float(problem.virtual.objective[0]),
+        np.zeros((1, k)) if weights is None else weights[None].copy(),
+        alpha, shares, multiplier, nu, status)
     if limit is not None:
         limit.remaining_s(problem)
-    shares = work[:, kernel.U][:, (1, 2, 0, 3)]
-    return RawAnswer(shares, np.array([alpha]), np.concatenate([multipliers, group[:, kernel.NU]]),
-                     'Solved' if converged else 'Stalled')
+    return RawAnswer(shares[0][:, (1, 2, 0, 3)], alpha, np.concatenate([multiplier[0], nu[0]]),
+                     'Solved' if status[0] == kernel.SOLVED else 'Stalled')

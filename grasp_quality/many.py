@@ -13,13 +13,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 import enum
 
+from grasp_quality import judge
 from grasp_quality.arrays import checked_number, frozen
 from grasp_quality.barrier import with_margin
+from grasp_quality.batch import Answers, AT_ONCE, on_all_cores, solve_part
 from grasp_quality.exceptions import InvalidTaskError, SolverError, SolverTimeoutError
 from grasp_quality.grasp import Grasp
 from grasp_quality.grasp_set import GraspSet
 from grasp_quality.problem import build_problem
-from grasp_quality.solution import Status
+from grasp_quality.scaled import Scaled
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskWrench
 from grasp_quality.time_limit import TimeLimit
@@ -30,7 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 class Outcome(enum.IntEnum):
     """Outcome of one of many problems; positive when it is an answer."""
 
-    UNPROVED = -1            # no solver gave an answer that its proof confirms
+    UNPROVED = 0             # no solver gave an answer that its proof confirms
     OPTIMAL = 1
     INFEASIBLE = 2
     OPTIMAL_NO_INTERIOR = 3  # see Status.OPTIMAL_NO_INTERIOR
@@ -121,28 +123,72 @@ def evaluate_many(
     which = np.broadcast_to(np.arange(len(grasps)), shape).ravel()
     wrenches = np.broadcast_to(wrenches, (*shape, 6)).reshape(-1, 6)
     loads = np.broadcast_to(loads, (*shape, 6)).reshape(-1, 6)
-    k = int(np.diff(grasps.starts).max())
-    alpha, upper = np.zeros(len(which)), np.full(len(which), np.inf)
-    status = np.full(len(which), Outcome.UNPROVED, dtype=np.int8)
-    found = np.zeros((len(which), k, 4)) if forces else None
-    for i, g in enumerate(which):
-        problem = build_problem(grasps[g], TaskWrench(wrenches[i]), loads[i])
-        try:
-            solution = solve(problem, limit)
-            if eps > 0.0 and solution.feasible:
-                solution = with_margin(problem, solution, eps, limit)
-        except SolverTimeoutError:
-            raise
-        except SolverError:
-            continue
-        alpha[i], upper[i] = solution.alpha, solution.alpha_upper
-        status[i] = Outcome[solution.status.name]
-        if found is not None and solution.status is not Status.INFEASIBLE:
-            found[i, :len(solution.forces)] = solution.forces
+    answers = Answers.empty(len(which), int(np.diff(grasps.starts).max()) if forces else 0)
+    if eps == 0.0:
+        _by_kernel(grasps, which, wrenches, loads, answers, limit)
+    unproved = np.flatnonzero(answers.status == judge.UNPROVED)
+    for n in unproved:
+        _alone(grasps[int(which[n])], wrenches[n], loads[n], eps, limit, answers, n)
     return ManySolution(
-        frozen(alpha.reshape(shape)), frozen(upper.reshape(shape)),
-        frozen(status.reshape(shape)),
-        None if found is None else frozen(found.reshape(*shape, k, 4)), len(which))
+        frozen(answers.alpha.reshape(shape)), frozen(answers.upper.reshape(shape)),
+        frozen(answers.status.reshape(shape)),
+        frozen(answers.forces.reshape(*shape, -1, 4)) if forces else None, len(unproved))
+
+
+def _by_kernel(grasps: GraspSet, which: NDArray[np.int64], wrenches: NDArray[np.float64],
+               loads: NDArray[np.float64], answers: Answers, limit: TimeLimit | None) -> None:
+    """Answer what the kernel can, pattern by pattern."""
+    jobs = []
+    pattern = _pattern_of(grasps)
+    for number in range(int(pattern.max()) + 1):
+        problems = np.flatnonzero(pattern[which] == number)
+        problems = problems[np.argsort(which[problems], kind='stable')]
+        jobs += [problems[begin:begin + AT_ONCE] for begin in range(0, len(problems), AT_ONCE)]
+
+    def job(problems: NDArray[np.int64]) -> None:
+        members, local = np.unique(which[problems], return_inverse=True)
+        scaled = Scaled.of_rows(grasps, members)
+        part = Answers.empty(len(problems), len(scaled.groups) if len(answers.forces) else 0)
+        solve_part(scaled, local, wrenches[problems], loads[problems], part)
+        answers.alpha[problems], answers.upper[problems] = part.alpha, part.upper
+        answers.status[problems] = part.status
+        if len(answers.forces):
+            answers.forces[problems, :len(scaled.groups)] = part.forces
+
+    on_all_cores(job, jobs, len(which), limit)
+
+
+def _pattern_of(grasps: GraspSet) -> NDArray[np.int64]:
+    """Return which pattern, contact count and groups, each grasp has, from 0; -1 for l2."""
+    M, k = len(grasps), len(grasps.groups) // len(grasps)
+    if (grasps.starts == np.arange(M + 1) * k).all() and (
+            grasps.groups.reshape(M, k) == grasps.groups[:k]).all():
+        pattern = np.zeros(M, np.int64)
+    else:
+        numbers: dict[bytes, int] = {}
+        starts = grasps.starts.tolist()
+        pattern = np.array([
+            numbers.setdefault(grasps.groups[begin:end].tobytes(), len(numbers))
+            for begin, end in zip(starts[:-1], starts[1:])])
+    return np.where(grasps.is_l2, -1, pattern)
+
+
+def _alone(grasp: Grasp, wrench: NDArray[np.float64], load: NDArray[np.float64], eps: float,
+           limit: TimeLimit | None, answers: Answers, n: int) -> None:
+    """Answer one problem by ``solve``; leave it marked as unproved where nothing proves it."""
+    problem = build_problem(grasp, TaskWrench(wrench), load)
+    try:
+        solution = solve(problem, limit)
+        if eps > 0.0 and solution.feasible:
+            solution = with_margin(problem, solution, eps, limit)
+    except SolverTimeoutError:
+        raise
+    except SolverError:
+        return
+    answers.alpha[n], answers.upper[n] = solution.alpha, solution.alpha_upper
+    answers.status[n] = Outcome[solution.status.name]
+    if len(answers.forces) and solution.feasible:
+        answers.forces[n, :len(solution.forces)] = solution.forces
 
 
 def _wrenches(value: ArrayLike, name: str) -> NDArray[np.float64]:

@@ -123,7 +123,7 @@ def wrench_map(grasp, directions, external_wrench=None, forces=False, time_limit
     """
     directions = checked(directions, (None, 6), 'directions', InvalidTaskError)
     check_rows(directions, 'directions')
-    batch = solve_wrenches(grasp, directions, external_wrench, time_limit_s)
+    batch = solve_wrenches(grasp, directions, external_wrench, time_limit_s, forces)
     return WrenchMap(directions, frozen(batch.alpha), frozen(batch.feasible),
                      frozen(batch.forces) if forces else None)
 

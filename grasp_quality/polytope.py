@@ -66,5 +66,6 @@ def _largest_scale(grasp, reached, external_wrench, time_limit_s):
     corners = [corner for corner in corners if np.abs(corner).max() > 1e-9 * size]
     if not corners:
         return 1.0
-    alphas = solve_wrenches(grasp, np.array(corners), external_wrench, time_limit_s).alpha
+    alphas = solve_wrenches(
+        grasp, np.array(corners), external_wrench, time_limit_s, forces=False).alpha
     return min(1.0, float(alphas.min()))

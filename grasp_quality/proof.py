@@ -1,20 +1,20 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The proof that goes with every answer, computed apart from the solver, in plain numpy.
+The proof that goes with every answer, computed apart from the solver.
 
 From any multipliers (lambda for equilibrium, nu for the bound, mu for the joints) weak duality
 gives an upper bound of the objective, once they are made exactly feasible: nu is recomputed from
 lambda and mu through the support functions of the cones, and all are scaled until the virtual
 contact's condition holds (docs/derivations.md). From the forces come the equilibrium residual, the
 largest cone usage and the use of the bound and of the joints' limits. An answer counts only when
-``Proof.holds``.
+``Proof.holds``. What the compiled kernel answers is judged by ``judge``; the rest here, in numpy.
 """
 
 from dataclasses import dataclass
 import math
 
-from grasp_quality import bounds, friction_cone
+from grasp_quality import bounds, friction_cone, judge, kernel_solver
 from grasp_quality.arrays import frozen
 import numpy as np
 
@@ -125,6 +125,8 @@ def prove(problem, shares, values, multipliers):
     Proof
 
     """
+    if kernel_solver.handles(problem) and problem.virtual.objective[0] > 0.0:
+        return _judged(problem, shares, values, np.array(multipliers[:6]))
     grasp, virtual = problem.grasp, problem.virtual
     nu, multipliers = multipliers, problem.layout.worths(multipliers)
     _, per_contact, bound_total = worth_of(grasp, multipliers)
@@ -178,6 +180,22 @@ def prove(problem, shares, values, multipliers):
         size=1.0 if virtual.role != 'task' else problem.reach,
         joint_usage=NO_JOINTS if joints is None else frozen(joints.usage(shares, press)),
         joint_multiplier=frozen(multipliers[6:]))
+
+
+def _judged(problem, shares, values, multiplier):
+    """Judge an answer to a question for the largest alpha of one wrench, by ``judge``."""
+    grasp = problem.grasp
+    block, _, groups = grasp.blocks
+    per_group, usage = np.empty(max(grasp.groups) + 1), np.empty(len(grasp))
+    alpha, upper, scale, residual, imbalance, _, used = judge.judge(
+        block, groups, problem.virtual.columns[:, 0].copy(), problem.scaled_external_wrench.copy(),
+        problem.reach, grasp.least_cap, float(values[0]), shares[:, (2, 0, 1, 3)].copy(order='C'),
+        multiplier, SMALL_CAP, ROUNDING, per_group, usage)
+    multiplier *= scale
+    return Proof(
+        objective=alpha, upper=upper, residual=residual, imbalance=imbalance, cone_usage=usage,
+        bound_usage=used, multiplier=frozen(multiplier), size=problem.reach, joint_usage=NO_JOINTS,
+        bound_multiplier=frozen(per_group[groups] * scale), joint_multiplier=NO_JOINTS)
 
 
 def held(values, upper):
