@@ -125,7 +125,7 @@ def evaluate_many(
     loads = np.broadcast_to(loads, (*shape, 6)).reshape(-1, 6)
     answers = Answers.empty(len(which), int(np.diff(grasps.starts).max()) if forces else 0)
     if eps == 0.0:
-        _by_kernel(grasps, which, wrenches, loads, answers, limit)
+        by_kernel(grasps, which, wrenches, loads, answers, limit)
     unproved = np.flatnonzero(answers.status == judge.UNPROVED)
     for n in unproved:
         _alone(grasps[int(which[n])], wrenches[n], loads[n], eps, limit, answers, n)
@@ -135,9 +135,9 @@ def evaluate_many(
         frozen(answers.forces.reshape(*shape, -1, 4)) if forces else None, len(unproved))
 
 
-def _by_kernel(grasps: GraspSet, which: NDArray[np.int64], wrenches: NDArray[np.float64],
-               loads: NDArray[np.float64], answers: Answers, limit: TimeLimit | None) -> None:
-    """Answer what the kernel can, pattern by pattern."""
+def by_kernel(grasps: GraspSet, which: NDArray[np.int64], wrenches: NDArray[np.float64],
+              loads: NDArray[np.float64], answers: Answers, limit: TimeLimit | None) -> None:
+    """Answer what the kernel can, pattern by pattern; the rest stays marked as unproved."""
     jobs = []
     pattern = _pattern_of(grasps)
     for number in range(int(pattern.max()) + 1):

@@ -58,8 +58,13 @@ def prove_optimal(problem, time_limit_s=None):
     SolverError, SolverTimeoutError
 
     """
+    return first_proved(problem, _answers(problem, TimeLimit.of(time_limit_s)))
+
+
+def first_proved(problem, answers):
+    """Return the first Optimum of RawAnswers, or None at the first proof that there is none."""
     said = []
-    for answer in _answers(problem, TimeLimit.of(time_limit_s)):
+    for answer in answers:
         if answer.solved:
             optimum = _optimum(problem, answer)
             if optimum.proof.holds:
