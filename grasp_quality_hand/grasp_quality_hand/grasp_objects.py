@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The objects that the simulated hand can hold, and where its fingertips touch them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Tuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 FRICTION = 0.8                # rubber fingertip on plastic [-]
 TORSIONAL_FRICTION = 0.003    # the same, about the normal [m]
@@ -23,9 +25,9 @@ class GraspObject:
     name : str
         How the object is asked for.
     shape : str
-        'box' or 'sphere'.
+        'box', 'sphere' or 'cylinder' (along z).
     size : tuple of float
-        Half edges of the box, or the radius of the sphere [m].
+        Half edges of the box, radius of the sphere, or radius and half length [m].
     mass : float
         [kg]
     height : float
@@ -36,20 +38,26 @@ class GraspObject:
         Unit normals into the object at these points, in the object frame.
     squeeze : ndarray, shape (3, 3)
         Balanced forces of the fingers on the object, the largest normal part 1, object frame.
+    friction : float
+        Of its contacts [-].
+    torsional_friction : float
+        The same, about the normal [m].
 
     """
 
     name: str
     shape: str
-    size: tuple
+    size: Tuple[float, ...]
     mass: float
     height: float
-    contact_points: np.ndarray
-    inward_normals: np.ndarray
-    squeeze: np.ndarray
+    contact_points: NDArray[np.float64]
+    inward_normals: NDArray[np.float64]
+    squeeze: NDArray[np.float64]
+    friction: float = FRICTION
+    torsional_friction: float = TORSIONAL_FRICTION
 
 
-def _cube():
+def _cube() -> GraspObject:
     """
     Return a cube of 70 mm: two fingers on opposite faces, the third on a face between them.
 
@@ -63,7 +71,7 @@ def _cube():
     return GraspObject('cube', 'box', (half, half, half), 0.2, 0.2, points, normals, squeeze)
 
 
-def _ball():
+def _ball() -> GraspObject:
     """Return a ball of 70 mm: three fingers evenly around it, 15 degrees below its equator."""
     radius, below = 0.035, np.deg2rad(15.0)
     azimuth = np.deg2rad([150.0, 30.0, -90.0])
@@ -74,4 +82,32 @@ def _ball():
                        -horizontal / np.cos(below)**2)
 
 
-OBJECTS = {grasp_object.name: grasp_object for grasp_object in (_cube(), _ball())}
+def _cylinder() -> GraspObject:
+    """Return a cylinder of 70 mm by 80 mm, upright: three fingers evenly around it."""
+    radius, half = 0.035, 0.04
+    azimuth = np.deg2rad([150.0, 30.0, -90.0])
+    outward = np.stack([np.cos(azimuth), np.sin(azimuth), np.zeros(3)], axis=1)
+    return GraspObject('cylinder', 'cylinder', (radius, half), 0.2, 0.21, radius * outward,
+                       -outward, -outward)
+
+
+def load(name: str, mass: float = 0.0, friction: float = 0.0) -> GraspObject:
+    """
+    Return an object by its name, with a mass [kg] or a friction [-] of its own when above 0.
+
+    The torsional friction goes with the friction.
+
+    """
+    if name not in OBJECTS:
+        raise ValueError(f'object {name!r} is not known: it must be one of {", ".join(OBJECTS)}')
+    grasp_object = OBJECTS[name]
+    if mass > 0.0:
+        grasp_object = replace(grasp_object, mass=mass)
+    if friction > 0.0:
+        share = friction / grasp_object.friction
+        grasp_object = replace(grasp_object, friction=friction,
+                               torsional_friction=share * grasp_object.torsional_friction)
+    return grasp_object
+
+
+OBJECTS = {grasp_object.name: grasp_object for grasp_object in (_cube(), _ball(), _cylinder())}

@@ -125,7 +125,8 @@ def _object(grasp_object):
     """Return the triangles of the object in its own frame."""
     if grasp_object.shape == 'box':
         return shapes.box(grasp_object.size)
-    return shapes.ball(*grasp_object.size)
+    return {'sphere': shapes.ball, 'cylinder': shapes.cylinder}[grasp_object.shape](
+        *grasp_object.size)
 
 
 def _hand(grasp_object, joints):

@@ -3,7 +3,6 @@
 """The simulated hand's state as ROS messages; every stamp is given by the caller."""
 
 from geometry_msgs.msg import Pose, PoseArray, PoseStamped, Vector3Stamped, WrenchStamped
-from grasp_quality_hand.grasp_objects import FRICTION, TORSIONAL_FRICTION
 from grasp_quality_hand.hand_model import FINGERS
 from grasp_quality_msgs.msg import Contact, ContactArray
 import numpy as np
@@ -35,7 +34,7 @@ def contact_wrench(contact, stamp):
     return message
 
 
-def contact_array(contacts, stamp):
+def contact_array(contacts, grasp_object, stamp):
     """Return every contact with its friction; a finger's second contact is <finger>_1."""
     seen = dict.fromkeys(FINGERS, 0)
     message = ContactArray(header=Header(stamp=stamp, frame_id=OBJECT_FRAME))
@@ -45,7 +44,8 @@ def contact_array(contacts, stamp):
         seen[finger] += 1
         message.contacts.append(Contact(
             name=name, finger=finger, pose=contact_pose(contact), model=Contact.MODEL_SFCE,
-            friction_coefficient=FRICTION, torsional_friction_coefficient=TORSIONAL_FRICTION))
+            friction_coefficient=grasp_object.friction,
+            torsional_friction_coefficient=grasp_object.torsional_friction))
     return message
 
 
@@ -63,6 +63,19 @@ def object_pose(simulation, stamp):
     message = PoseStamped(header=Header(stamp=stamp, frame_id=BASE_FRAME))
     _set_pose(message.pose, simulation.object_position(), simulation.object_quaternion())
     return message
+
+
+def load_wrench(load, stamp):
+    """Return what a pull does to the object, from a wrench (6,) in the object frame [N, N m]."""
+    message = WrenchStamped(header=Header(stamp=stamp, frame_id=OBJECT_FRAME))
+    set_wrench(message.wrench, load)
+    return message
+
+
+def set_wrench(wrench, values):
+    """Fill a Wrench from shape (6,), force first [N, N m]."""
+    force, torque = wrench.force, wrench.torque
+    force.x, force.y, force.z, torque.x, torque.y, torque.z = map(float, values)
 
 
 def up_vector(simulation, stamp):

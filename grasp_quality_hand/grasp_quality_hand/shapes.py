@@ -60,6 +60,13 @@ def ball(radius):
     return convex_hull(radius * np.concatenate([points, [[0, 0, 1], [0, 0, -1]]]))
 
 
+def cylinder(radius, half_length):
+    """Return a cylinder about the origin, along z."""
+    ring = _ring(np.array([0.0, 0.0, 1.0]), radius)
+    return convex_hull(np.concatenate([ring + [0.0, 0.0, half_length],
+                                       ring - [0.0, 0.0, half_length]]))
+
+
 def friction_cone(apex, normal, friction, height):
     """Return the cone of the forces that do not slip, its axis along the unit vector normal."""
     rim = apex + height * normal + _ring(normal, friction * height)

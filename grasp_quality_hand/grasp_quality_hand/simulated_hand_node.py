@@ -8,13 +8,17 @@ import time
 
 from geometry_msgs.msg import PoseArray, PoseStamped, Vector3Stamped, WrenchStamped
 from grasp_quality_hand import hand_messages
-from grasp_quality_hand.effort_input import BadCommand, COMMAND_TIMEOUT
+from grasp_quality_hand.channel import Channel
+from grasp_quality_hand.contact_noise import ContactNoise
+from grasp_quality_hand.effort_input import BadCommand
 from grasp_quality_hand.fetch_dclaw import DClawUnavailable
-from grasp_quality_hand.grasp_objects import OBJECTS
+from grasp_quality_hand.grasp_objects import load
 from grasp_quality_hand.hand_model import FINGERS
-from grasp_quality_hand.simulation import HandSimulation, SQUEEZE_FORCE
+from grasp_quality_hand.hand_parameters import declare_parameters
+from grasp_quality_hand.pull_service import PullService
+from grasp_quality_hand.simulation import HandSimulation
 from grasp_quality_msgs.msg import ContactArray
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+import numpy as np
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -24,9 +28,8 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import Trigger
 
-RATE_HZ = 100.0
-CONTROLLER = 'effort_controller'
-COMMAND_WARNING_PERIOD_S = 1.0
+WARNING_PERIOD_S = 1.0
+DELIVERY_PERIOD_S = 0.001
 LONGEST_STRIDE_S = 0.05      # a machine that falls behind loses simulated time, not its rate
 SENSOR_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -36,32 +39,28 @@ class SimulatedHandNode(Node):
 
     def __init__(self):
         super().__init__('simulated_hand')
-        target = self.declare_parameter('target_node', 'grasp_quality', ParameterDescriptor(
-            description='node whose input topics get the contacts', read_only=True)).value
-        self.declare_parameter('object', 'cube', ParameterDescriptor(
-            description=f'what ~/load_object loads: {", ".join(OBJECTS)}'))
-        self.declare_parameter('squeeze_force', SQUEEZE_FORCE, ParameterDescriptor(
-            description='largest normal force of the squeeze [N], from the next load_object on',
-            floating_point_range=[FloatingPointRange(from_value=0.1, to_value=30.0)]))
-        rate = self.declare_parameter('rate', RATE_HZ, ParameterDescriptor(
-            description='rate of all topics [Hz]', read_only=True,
-            floating_point_range=[FloatingPointRange(from_value=10.0, to_value=500.0)])).value
-        efforts = self.declare_parameter('effort_controller', CONTROLLER, ParameterDescriptor(
-            description='efforts are taken from <this>/commands, one for each joint in the order '
-                        'of /joint_states', read_only=True)).value
-        self.declare_parameter('command_timeout', COMMAND_TIMEOUT, ParameterDescriptor(
-            description="age of an effort command [s] beyond which the hand's own controller "
-                        'takes over, from the next load_object on',
-            floating_point_range=[FloatingPointRange(from_value=0.01, to_value=10.0)]))
-        self.add_on_set_parameters_callback(self._check_parameters)
-        self._create_publishers('/' + target.strip('/'))
+        declare_parameters(self)
+        self._noise = ContactNoise(*map(self._get, ('position_noise', 'normal_noise',
+                                                    'force_noise')))
+        self._rng = np.random.default_rng(self._get('seed'))
+        self._channel = Channel(self._get('drop_rate'), self._get('delay'), self._get('seed'))
+        self._create_publishers('/' + self._get('target_node').strip('/'))
         self._load()
         self.create_service(Trigger, '~/close', self._on_close)
         self.create_service(Trigger, '~/open', self._on_open)
         self.create_service(Trigger, '~/load_object', self._on_load_object)
-        self.create_subscription(Float64MultiArray, f'/{efforts.strip("/")}/commands',
-                                 self._on_efforts, 1)
-        self.create_timer(1.0 / rate, self._on_timer)
+        self._pulls = PullService(self, lambda: self._simulation)
+        self.create_subscription(
+            Float64MultiArray, f'/{self._get("effort_controller").strip("/")}/commands',
+            self._on_efforts, 1)
+        self.create_timer(1.0 / self._get('rate'), self._on_timer)
+        if self._channel.delay > 0.0:
+            self.create_timer(DELIVERY_PERIOD_S,
+                              lambda: self._channel.deliver(time.monotonic()))
+
+    def _get(self, name):
+        """Return the value of a parameter."""
+        return self.get_parameter(name).value
 
     def _create_publishers(self, target):
         """Create the topics of the contacts below the node they are for, and the hand's own."""
@@ -76,21 +75,14 @@ class SimulatedHandNode(Node):
         self._object_pose = publisher(PoseStamped, '~/object_pose')
         self._up = publisher(Vector3Stamped, '~/up_in_object_frame')
         self._mass = publisher(Float64, '~/object_mass')
-
-    def _check_parameters(self, parameters):
-        """Refuse an object that the hand does not know."""
-        for parameter in parameters:
-            if parameter.name == 'object' and parameter.value not in OBJECTS:
-                return SetParametersResult(
-                    successful=False, reason=f'object {parameter.value!r} is not known: it must '
-                                             f'be one of {", ".join(OBJECTS)}')
-        return SetParametersResult(successful=True)
+        self._load_wrench = publisher(WrenchStamped, '~/load')
 
     def _load(self):
         """Begin anew with the object and the squeeze force of the parameters, hand open."""
+        grasp_object = load(*map(self._get, ('object', 'object_mass', 'object_friction')))
         self._simulation = HandSimulation(
-            self.get_parameter('object').value, self.get_parameter('squeeze_force').value,
-            command_timeout=self.get_parameter('command_timeout').value)
+            grasp_object, self._get('squeeze_force'), hand=self._get('hand'),
+            command_timeout=self._get('command_timeout'))
         self._simulated_until = time.monotonic()
 
     def _on_close(self, request, response):
@@ -109,12 +101,16 @@ class SimulatedHandNode(Node):
         return self._answer(response, f'loaded the {self._simulation.object.name}')
 
     def _on_efforts(self, message):
+        """Take an effort command, when the channel does not lose it."""
+        self._channel.send(lambda: self._take_efforts(message.data), time.monotonic())
+
+    def _take_efforts(self, efforts):
         """Take an effort command; say so when it cannot be used."""
         try:
-            self._simulation.command_efforts(message.data)
+            self._simulation.command_efforts(efforts)
         except BadCommand as error:
             self.get_logger().warning(f'effort command ignored: {error}',
-                                      throttle_duration_sec=COMMAND_WARNING_PERIOD_S)
+                                      throttle_duration_sec=WARNING_PERIOD_S)
 
     @staticmethod
     def _answer(response, message):
@@ -128,20 +124,27 @@ class SimulatedHandNode(Node):
         simulated = self._simulation.advance(behind)
         self._simulated_until = max(self._simulated_until + simulated,
                                     time.monotonic() - LONGEST_STRIDE_S)
+        self._pulls.look()
         self._publish()
 
     def _publish(self):
         """Publish contacts and state with one stamp."""
         stamp, simulation = self.get_clock().now().to_msg(), self._simulation
-        contacts = simulation.finger_contacts()
+        contacts = self._noise.measure(simulation.finger_contacts(), self._rng)
+        points = self._noise.measure(simulation.contact_points(), self._rng)
         for publisher, contact in zip(self._contact_wrenches, contacts):
-            publisher.publish(hand_messages.contact_wrench(contact, stamp))
-        self._contact_poses.publish(hand_messages.pose_array(contacts, stamp))
-        self._contacts.publish(hand_messages.contact_array(simulation.contact_points(), stamp))
-        self._joint_states.publish(hand_messages.joint_state(simulation, stamp))
-        self._object_pose.publish(hand_messages.object_pose(simulation, stamp))
-        self._up.publish(hand_messages.up_vector(simulation, stamp))
-        self._mass.publish(Float64(data=simulation.object.mass))
+            self._send(publisher, hand_messages.contact_wrench(contact, stamp))
+        self._send(self._contact_poses, hand_messages.pose_array(contacts, stamp))
+        self._send(self._contacts, hand_messages.contact_array(points, simulation.object, stamp))
+        self._send(self._joint_states, hand_messages.joint_state(simulation, stamp))
+        self._send(self._object_pose, hand_messages.object_pose(simulation, stamp))
+        self._send(self._up, hand_messages.up_vector(simulation, stamp))
+        self._send(self._mass, Float64(data=simulation.object.mass))
+        self._send(self._load_wrench, hand_messages.load_wrench(simulation.load, stamp))
+
+    def _send(self, publisher, message):
+        """Publish a message, when the channel does not lose it."""
+        self._channel.send(lambda: publisher.publish(message), time.monotonic())
 
 
 def main(args=None):

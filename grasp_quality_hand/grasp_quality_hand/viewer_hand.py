@@ -21,7 +21,8 @@ HAND_COLOUR, OBJECT_COLOUR = (120, 125, 135), (219, 214, 199)
 OBJECT_OPACITY = 0.3
 DIGITS = 6  # of metres and quaternions: what moves less is not sent again
 OBJECT_RULE = ("must be '' (ask the simulated hand), 'none', 'box:<x>,<y>,<z>' with edges [m], "
-               "'sphere:<radius>' [m] or a mesh file in the object frame")
+               "'sphere:<radius>', 'cylinder:<radius>,<height>' along z [m] or a mesh file in the "
+               'object frame')
 
 
 def object_mesh(text: str) -> trimesh.Trimesh | None:
@@ -43,6 +44,11 @@ def object_mesh(text: str) -> trimesh.Trimesh | None:
             if len(edges) == 3 and min(edges) > 0.0:
                 box: trimesh.Trimesh = trimesh.creation.box(edges)
                 return box
+        elif kind == 'cylinder':
+            sizes = [float(number) for number in numbers.split(',')]
+            if len(sizes) == 2 and min(sizes) > 0.0:
+                cylinder: trimesh.Trimesh = trimesh.creation.cylinder(*sizes)
+                return cylinder
         elif kind == 'sphere':
             if float(numbers) > 0.0:
                 ball: trimesh.Trimesh = trimesh.creation.icosphere(3, float(numbers))
@@ -61,6 +67,8 @@ def known_object(name: str) -> str:
     size = OBJECTS[name].size
     if OBJECTS[name].shape == 'sphere':
         return f'sphere:{size[0]:g}'
+    if OBJECTS[name].shape == 'cylinder':
+        return f'cylinder:{size[0]:g},{2.0 * size[1]:g}'
     return 'box:' + ','.join(f'{2.0 * half:g}' for half in size)
 
 

@@ -7,114 +7,18 @@ import signal
 import subprocess
 import time
 
-from geometry_msgs.msg import PoseArray, PoseStamped, Vector3Stamped, WrenchStamped
-from grasp_quality_hand.demo_processes import claim_domain, discovery_environment, executable
+from geometry_msgs.msg import PoseArray, PoseStamped
+from grasp_quality_hand.demo_processes import executable
 from grasp_quality_hand.hand_model import FINGERS
-from grasp_quality_msgs.msg import Contact, ContactArray
+from grasp_quality_msgs.msg import Contact
+from hand_rig import CONTACT_TOPICS, DEADLINE, start, TARGET, WRENCHES
 import numpy as np
 import pytest
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import SetParameters
-import rclpy
-from rclpy.context import Context
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import qos_profile_sensor_data
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64, Float64MultiArray
+from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import Trigger
 
-DEADLINE = 20.0              # for anything that is waited for [s]
 RATE_HZ = 100.0
-TARGET = '/a_hand/grasp_quality'
-WRENCHES = [f'{TARGET}/contact_wrenches/{finger}' for finger in FINGERS]
-CONTACT_TOPICS = {f'{TARGET}/contact_poses': PoseArray, f'{TARGET}/contacts': ContactArray,
-                  **dict.fromkeys(WRENCHES, WrenchStamped)}
-TOPICS = {**CONTACT_TOPICS, '/joint_states': JointState,
-          '/simulated_hand/object_pose': PoseStamped,
-          '/simulated_hand/up_in_object_frame': Vector3Stamped,
-          '/simulated_hand/object_mass': Float64}
-
-
-class Client:
-    """Hears all topics and calls the services of the hand."""
-
-    def __init__(self, domain):
-        self.context = Context()
-        rclpy.init(context=self.context, domain_id=domain)
-        self.node = rclpy.create_node('test_client', context=self.context)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.executor.add_node(self.node)
-        self.heard = {topic: [] for topic in TOPICS}
-        for topic, message_type in TOPICS.items():
-            self.node.create_subscription(message_type, topic, self.heard[topic].append,
-                                          qos_profile_sensor_data)
-
-    def spin_until(self, condition):
-        """Listen until condition() holds."""
-        end = time.monotonic() + DEADLINE
-        while not condition():
-            assert time.monotonic() < end, 'waited in vain'
-            self.executor.spin_once(timeout_sec=0.05)
-
-    def call(self, service_type, name, request):
-        """Return the answer of a service."""
-        client = self.node.create_client(service_type, f'/simulated_hand/{name}')
-        self.spin_until(client.service_is_ready)
-        future = client.call_async(request)
-        self.spin_until(future.done)
-        return future.result()
-
-    def trigger(self, name):
-        """Call a Trigger and forget what was heard before."""
-        assert self.call(Trigger, name, Trigger.Request()).success
-        for messages in self.heard.values():
-            messages.clear()
-
-    def choose(self, name):
-        """Set the parameter `object`; return whether the hand took it."""
-        value = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=name)
-        request = SetParameters.Request(parameters=[Parameter(name='object', value=value)])
-        return self.call(SetParameters, 'set_parameters', request).results[0]
-
-    def close(self):
-        """Leave ROS."""
-        self.executor.shutdown()
-        self.node.destroy_node()
-        rclpy.shutdown(context=self.context)
-
-
-@pytest.fixture(scope='module')
-def domain():
-    """Take a ROS domain; put the environment back afterwards."""
-    before = {name: os.environ.get(name) for name in discovery_environment(0)}
-    claim = claim_domain()
-    yield int(os.environ['ROS_DOMAIN_ID'])
-    claim.close()
-    for name, value in before.items():
-        os.environ.pop(name)
-        if value is not None:
-            os.environ[name] = value
-
-
-def start(*parameters):
-    """Start the hand in a process of its own."""
-    command = [str(executable('grasp_quality_hand', 'simulated_hand')), '--ros-args']
-    return subprocess.Popen([*command, *parameters], start_new_session=True)
-
-
-@pytest.fixture(scope='module')
-def client(domain):
-    """Return a client of a running hand, which must end with 0 on SIGINT."""
-    process = start('-p', 'target_node:=a_hand/grasp_quality')
-    client = Client(domain)
-    try:
-        client.spin_until(lambda: all(client.heard.values()))
-        yield client
-    finally:
-        client.close()
-        process.send_signal(signal.SIGINT)
-        code = process.wait(DEADLINE)
-    assert code == 0
 
 
 def test_topics_come_at_100_hz_and_in_order(client):
@@ -140,7 +44,7 @@ def test_open_hand_shows_a_zero_wrench_for_every_finger(client):
         assert message.wrench.force.z == 0.0 and message.wrench.torque.z == 0.0
 
 
-@pytest.mark.parametrize('name', ['cube', 'ball'])
+@pytest.mark.parametrize('name', ['cube', 'ball', 'cylinder'])
 def test_closed_hand_holds_the_object_it_was_given(client, name):
     assert client.choose(name).successful
     client.trigger('load_object')
@@ -161,7 +65,7 @@ def test_closed_hand_holds_the_object_it_was_given(client, name):
     up, mass = newest['/simulated_hand/up_in_object_frame'].vector, newest[
         '/simulated_hand/object_mass'].data
     assert (up.x, up.y, up.z) == pytest.approx((0.0, 0.0, 1.0), abs=0.01)
-    assert mass == {'cube': 0.2, 'ball': 0.15}[name]
+    assert mass == {'cube': 0.2, 'ball': 0.15, 'cylinder': 0.2}[name]
     assert newest['/simulated_hand/object_pose'].pose.position.z > 0.15
     assert len(newest['/joint_states'].name) == len(newest['/joint_states'].position) == 9
 
@@ -188,6 +92,25 @@ def test_effort_commands_reach_the_joints_and_bad_ones_do_not(client):
 def test_unknown_object_is_refused(client):
     result = client.choose('teapot')
     assert not result.successful and 'cube, ball' in result.reason
+
+
+def test_contact_points_stand_behind_the_same_topics_with_late_and_lost_messages(client):
+    process = start('-r', '__ns:=/points', '-p', 'hand:=points', '-p', 'target_node:=points/node',
+                    '-p', 'drop_rate:=0.2', '-p', 'delay:=0.02', '-p', 'object_mass:=0.3', '-p',
+                    'effort_controller:=points/effort_controller')
+    heard = []
+    client.node.create_subscription(PoseArray, '/points/node/contact_poses', heard.append,
+                                    qos_profile_sensor_data)
+    ages = []
+    client.node.create_subscription(
+        PoseStamped, '/points/simulated_hand/object_pose', lambda message: ages.append(
+            client.node.get_clock().now().nanoseconds - message.header.stamp.sec * 10**9
+            - message.header.stamp.nanosec), qos_profile_sensor_data)
+    client.spin_until(lambda: len(heard) > 20 and len(ages) > 20)
+    assert len(heard[-1].poses) == len(FINGERS)
+    assert min(ages) > 0.02e9
+    process.send_signal(signal.SIGINT)
+    assert process.wait(DEADLINE) == 0
 
 
 def test_sigterm_ends_it_with_code_0(client):

@@ -1,0 +1,47 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""The service that pulls, over DDS."""
+
+from grasp_quality_msgs.srv import PullObject
+from hand_rig import WRENCHES
+import pytest
+
+
+def pull(client, **request):
+    """Return the answer of a pull downwards, in newtons."""
+    message = PullObject.Request(**request)
+    message.wrench.force.z = -1.0
+    return client.call(PullObject, 'pull', message)
+
+
+def test_pull_grows_until_slip_and_answers_with_the_load_held(client):
+    client.trigger('load_object')
+    assert 'does not hold' in pull(client).message
+    client.trigger('close')
+    first = client.heard[WRENCHES[0]]
+    client.spin_until(lambda: first and first[-1].wrench.force.z > 4.9)
+    answer = pull(client, growth=4.0)
+    assert answer.success and answer.slipped and answer.moved > 5e-4
+    assert 1.0 < answer.held < 15.0 and answer.load.force.z == pytest.approx(-answer.held)
+    loads = [-message.wrench.force.z for message in client.heard['/simulated_hand/load']]
+    assert max(loads) <= answer.held and max(loads) > 0.8 * answer.held
+    again = pull(client, growth=4.0, limit=0.1)
+    assert again.success and not again.slipped and again.held == pytest.approx(0.1)
+    assert 'growth' in pull(client, growth=-1.0).message
+
+
+def test_opening_the_hand_breaks_a_pull_off(client):
+    client.trigger('load_object')
+    client.trigger('close')
+    first = client.heard[WRENCHES[0]]
+    client.spin_until(lambda: first and first[-1].wrench.force.z > 4.9)
+    service = client.node.create_client(PullObject, '/simulated_hand/pull')
+    client.spin_until(service.service_is_ready)
+    request = PullObject.Request(growth=1e-3)
+    request.wrench.force.z = -1.0
+    future = service.call_async(request)
+    loads = client.heard['/simulated_hand/load']
+    client.spin_until(lambda: loads and loads[-1].wrench.force.z < 0.0)
+    client.trigger('open')
+    client.spin_until(future.done)
+    assert not future.result().success and 'broken off' in future.result().message
