@@ -10,7 +10,7 @@ import numpy as np
 import trimesh
 
 MANY_FACES = 3000  # a mesh with more is made coarser
-FINEST = 1.0 / 24.0  # cell that vertices are merged in, of the mesh's extent
+FINEST = 1.0 / 40.0  # cell that vertices are merged in, of the mesh's extent
 
 
 def link_meshes(tree: UrdfTree, link: str) -> list[trimesh.Trimesh]:

@@ -7,6 +7,7 @@ Three threads that never wait for each other: this loop draws the newest message
 rate, the thread of ``viewer_calls`` asks services, and viser serves the page.
 """
 
+import os
 from pathlib import Path
 import signal
 import sys
@@ -31,8 +32,11 @@ from rclpy.signals import SignalHandlerOptions
 import viser
 
 RATE_HZ = 20.0
+NICE = 5                 # the page gives way to the hand and to the node
 ASK_PERIOD_S = 1.0       # between two looks at the parameters of node and hand
-FIRST_VIEW = np.array([0.10, -0.20, 0.12])  # of the camera from what it looks at [m]
+AMBIENT = 1.2
+FIRST_VIEW = np.array([0.12, -0.27, 0.11])  # of the camera from the object [m]
+BELOW = np.array([0.0, 0.0, -0.045])        # what it looks at, from the object [m]
 
 
 class Viewer:
@@ -58,6 +62,8 @@ class Viewer:
         self.server.initial_camera.near = 1e-3
         self.server.scene.set_up_direction('+z')
         self.server.scene.configure_default_lights(cast_shadow=False)
+        self.server.scene.configure_environment_map(None)  # its light would wash the colours out
+        self.server.scene.add_light_ambient('/ambient', intensity=AMBIENT)
         self._look_at(np.zeros(3))
         self._caller = Caller(calls)
         self._listener = Listener(node, self._target, self._hand_node)
@@ -115,7 +121,7 @@ class Viewer:
         self._body.place(pose, joints)
 
     def _look_at(self, point: Any) -> None:
-        self.server.initial_camera.look_at = tuple(point)
+        self.server.initial_camera.look_at = tuple(point + BELOW)
         self.server.initial_camera.position = tuple(point + FIRST_VIEW)
 
     def _ask(self) -> None:
@@ -158,6 +164,7 @@ def main(args: list[str] | None = None) -> int:
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda received, frame: stopping.append(received))
+    os.nice(NICE)
     node, calls = rclpy.create_node('viewer'), rclpy.create_node(
         'viewer_calls', use_global_arguments=False)
     try:

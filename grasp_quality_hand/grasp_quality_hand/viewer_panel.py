@@ -37,14 +37,14 @@ class Panel:
              uplot.Series(label='measured slip margin [-]', stroke=SLIP, width=2, dash=(4, 3),
                           scale='margin')),
             scales={'x': uplot.Scale(time=False, range=(-PLOT_S, 0.0)),
-                    'alpha': uplot.Scale(auto=True),
+                    'alpha': uplot.Scale(auto=True, range=(0.0, None)),
                     'margin': uplot.Scale(auto=False, range=(-1.05, 1.05))},
             axes=(uplot.Axis(label='seconds ago', labelSize=18, size=32),
                   uplot.Axis(scale='alpha', label='alpha [-]', labelSize=18, size=44,
                              stroke=ALPHA),
                   uplot.Axis(scale='margin', side=1, label='margins [-]', labelSize=18, size=40,
                              stroke=SLIP, grid={'show': False})),
-            legend=uplot.Legend(show=True, live=False), height=210)
+            legend=uplot.Legend(show=True, live=False), height=220, padding=(14, 0, 4, 0))
         self._legend = gui.add_html(viewer_words.legend(Picture()))
 
     def show(self, picture: Picture, now: float) -> None:

@@ -5,9 +5,9 @@
 from html import escape
 import math
 
-from grasp_quality_hand.viewer_picture import Picture
+from grasp_quality_hand.viewer_picture import Array, Picture
 from grasp_quality_msgs.msg import GraspQuality, ResultCode
-from msg_adapters.colours import MEASURED, OPTIMAL, TASK, usage_colours
+from msg_adapters.colours import alpha_colours, MEASURED, OPTIMAL, TASK, usage_colours
 from msg_adapters.results import code_name
 import numpy as np
 
@@ -64,7 +64,8 @@ def table(picture: Picture) -> str:
     if picture.grasp is None or picture.quality is None:
         return '<div id="gq-table" style="margin:4px 12px;font-size:13px">no contacts</div>'
     head = ''.join(f'<th style="text-align:right;padding:2px 6px">{text}</th>' for text in (
-        'normal<br>[N]', 'cone used<br>[%]', 'measured<br>[N]', 'slip margin<br>[%]'))
+        'optimal<br>normal [N]', 'cone used<br>[%]', 'measured<br>normal [N]',
+        'slip margin<br>[%]'))
     rows = ''.join(_row(picture, i) for i in range(len(picture.grasp)))
     return ('<table id="gq-table" style="margin:4px 8px;font-size:13px;border-collapse:collapse">'
             f'<tr><th style="text-align:left;padding:2px 6px">contact</th>{head}</tr>'
@@ -79,12 +80,12 @@ def _row(picture: Picture, i: int) -> str:
     swatch = 'transparent' if math.isnan(usage) else css(usage_colours([usage])[0])
     mark = f'<span style="color:{swatch}">&#9632;</span> {escape(name)}'
     if name == quality.limiting_contact:
-        mark = f'<b>{mark} (limits)</b>'
+        mark = f'<b>{mark}<br>(limits)</b>'
     cells = ''.join(
         f'<td style="text-align:right;padding:2px 6px">{number(value, digits)}</td>'
         for value, digits in ((picture.optimal[i] @ normal, 2), (100.0 * usage, 0),
                               (picture.measured[i] @ normal, 2), (100.0 * picture.margins[i], 0)))
-    return f'<tr><td style="padding:2px 6px">{mark}</td>{cells}</tr>'
+    return f'<tr><td style="padding:2px 6px;white-space:nowrap">{mark}</td>{cells}</tr>'
 
 
 def number(value: float, digits: int) -> str:
@@ -100,12 +101,21 @@ def legend(picture: Picture) -> str:
              ('alpha x task', css(TASK))]
     keys = ' &nbsp; '.join(f'<span style="color:{colour}">&#9632;</span> {text}'
                            for text, colour in parts)
-    stops = ', '.join(css(colour) for colour in usage_colours(np.linspace(0.0, 1.0, 5)))
-    bar = (f'<span style="display:inline-block;width:60px;height:9px;'
-           f'background:linear-gradient(90deg,{stops})"></span>')
+    usage = _bar(usage_colours(np.linspace(0.0, 1.0, 5)))
+    surface = ''
+    if picture.force_map is not None and picture.force_map.alphas:
+        largest = max(picture.force_map.alphas)
+        surface = (f'<br>force map: 0 {_bar(alpha_colours(np.linspace(0.0, 1.0, 11)))} '
+                   f'{largest:.3g} N in its best direction')
     return (f'<div id="gq-legend" style="margin:4px 12px;font-size:12px;line-height:1.5">{keys}'
-            f'<br>friction cones: 0 % {bar} 100 % used &nbsp; arrows and map: '
-            f'{1e3 * picture.metres_per_newton:.3g} mm/N</div>')
+            f'<br>scale of arrows and map: {1e3 * picture.metres_per_newton:.3g} mm/N'
+            f'<br>friction cones: 0 % {usage} 100 % used{surface}</div>')
+
+
+def _bar(stops: Array) -> str:
+    colours = ', '.join(css(colour) for colour in stops)
+    return ('<span style="display:inline-block;width:60px;height:9px;'
+            f'background:linear-gradient(90deg,{colours})"></span>')
 
 
 def css(colour: tuple[float, float, float] | np.ndarray) -> str:

@@ -98,8 +98,8 @@ def test_the_table_has_a_row_for_each_contact():
     rows = table(picture).split('<tr>')[2:]
     assert len(rows) == 2
     assert 'left' in rows[0] and '>10.00<' in rows[0] and '>4.00<' in rows[0]
-    assert '>50<' in rows[0] and '>&ndash;<' in rows[1] and 'right (limits)' in rows[1]
-    assert '2 mm/N' in legend(picture)
+    assert '>50<' in rows[0] and '>&ndash;<' in rows[1] and 'right<br>(limits)' in rows[1]
+    assert '2 mm/N' in legend(picture) and '1 N in its best direction' in legend(picture)
     assert number(float('nan'), 2) == '&ndash;'
 
 
