@@ -14,6 +14,7 @@ import os
 from threading import Lock, Thread
 
 from grasp_quality import judge, kernel, kernel_solver, proof
+from grasp_quality.barrier import NEGLIGIBLE
 from grasp_quality.infeasibility import INFEASIBILITY_TOLERANCE
 from grasp_quality.problem import build_problem, NO_WRENCH
 from grasp_quality.scaled import Scaled
@@ -124,7 +125,7 @@ class Answers:
         return Answers(self.alpha[rows], self.upper[rows], self.status[rows], self.forces[rows])
 
 
-def solve_part(scaled, which, wrenches, loads, answers):
+def solve_part(scaled, which, wrenches, loads, answers, barrier_weight=0.0):
     """
     Solve and judge some problems on this thread.
 
@@ -138,6 +139,8 @@ def solve_part(scaled, which, wrenches, loads, answers):
         Tasks and external wrenches, each about the origin of its grasp's object frame.
     answers : Answers
         Written into, all of it.
+    barrier_weight : float
+        eps of eq. (11); what has no proved answer without it gets none with it.
 
     """
     count, k = len(which), len(scaled.groups)
@@ -148,14 +151,27 @@ def solve_part(scaled, which, wrenches, loads, answers):
     tasks /= sizes[:, None]
     shares, multipliers = np.empty((count, k, 4)), np.empty((count, 6))
     nus = np.empty((count, scaled.group_count))
-    kernel.solve_many(
-        scaled.blocks, which, scaled.groups, scaled.group_count, tasks, loads, scaled.reaches,
-        scaled.least_caps, 1.0, np.zeros((1, k)), answers.alpha, shares, multipliers, nus,
-        answers.status)
-    judge.judge_many(
-        TOLERANCES, scaled.blocks, which, scaled.groups, scaled.group_count, tasks, loads,
-        scaled.reaches, scaled.least_caps, scaled.units, sizes, answers.alpha, shares, multipliers,
-        answers.status, answers.upper, answers.forces)
+    problem = (scaled.blocks, which, scaled.groups, scaled.group_count, tasks, loads,
+               scaled.reaches, scaled.least_caps)
+    kernel.solve_many(*problem, 1.0, np.zeros((1, k)), answers.alpha, shares, multipliers, nus,
+                      answers.status)
+    judge.judge_many(TOLERANCES, *problem, scaled.units, sizes, answers.alpha, shares, multipliers,
+                     answers.status, answers.upper, answers.forces)
+    if barrier_weight > 0.0:
+        before = answers.status.copy()
+        idle = answers.upper * sizes <= NEGLIGIBLE * scaled.reaches[which]
+        before[idle & (before == judge.OPTIMAL)] = judge.UNPROVED  # alpha has no inside
+        rest = before != judge.OPTIMAL
+        frictional = (scaled.units[:, :, (0, 1, 3)] > 0.0).any(axis=2)[which]  # (N, k)
+        weights = np.where(frictional, 1.0, 0.5) * (barrier_weight * sizes)[:, None]
+        kernel.solve_many(*problem, 1.0, weights, answers.alpha, shares, multipliers, nus,
+                          answers.status)
+        judge.judge_centres(
+            TOLERANCES, *problem, scaled.units, sizes, barrier_weight, answers.alpha, shares,
+            multipliers, nus, answers.upper, answers.status, answers.forces)
+        answers.alpha[rest], answers.status[rest] = 0.0, before[rest]
+        if len(answers.forces):
+            answers.forces[rest] = 0.0
 
 
 def on_all_cores(job, parts, problems, limit=None):

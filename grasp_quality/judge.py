@@ -161,6 +161,21 @@ def infeasibility_margin(block, groups, task, load, reach, multiplier, per_group
     return -work / size / reach
 
 
+@numba.njit(**INSIDE)
+def write_forces(which, units, shares, status, forces):
+    """Write [t1, t2, n, m_n] (N, k, 4) of the proved answers, else zero; nothing for (0, k, 4)."""
+    for n in range(len(forces)):
+        m = which[n]
+        for i in range(forces.shape[1]):
+            for c in range(4):
+                forces[n, i, c] = 0.0
+            if status[n] == OPTIMAL:
+                forces[n, i, 0] = shares[n, i, 1] * units[m, i, 0]
+                forces[n, i, 1] = shares[n, i, 2] * units[m, i, 1]
+                forces[n, i, 2] = shares[n, i, 0] * units[m, i, 2]
+                forces[n, i, 3] = shares[n, i, 3] * units[m, i, 3]
+
+
 @numba.njit(**COMPILE)
 def judge_many(tolerances, blocks, which, groups, group_count, tasks, loads, reaches, least_caps,
                units, sizes, alphas, shares, multipliers, status, uppers, forces):
@@ -189,8 +204,7 @@ def judge_many(tolerances, blocks, which, groups, group_count, tasks, loads, rea
         Afterwards [t1, t2, n, m_n] of the proved answers, else zero; (0, k, 4) when not wanted.
 
     """
-    k = len(groups)
-    per_group, usage, direction = np.empty(group_count), np.empty(k), np.empty(6)
+    per_group, usage, direction = np.empty(group_count), np.empty(len(groups)), np.empty(6)
     for n in range(len(which)):
         m = which[n]
         alpha, upper, verdict = 0.0, math.inf, UNPROVED
@@ -206,13 +220,76 @@ def judge_many(tolerances, blocks, which, groups, group_count, tasks, loads, rea
                                     per_group) > tolerances[4]:
                 upper, verdict = 0.0, INFEASIBLE
         alphas[n], uppers[n], status[n] = alpha, max(alpha, upper), verdict
-        if len(forces):
-            for i in range(k):
-                if verdict == OPTIMAL:
-                    forces[n, i, 0] = shares[n, i, 1] * units[m, i, 0]
-                    forces[n, i, 1] = shares[n, i, 2] * units[m, i, 1]
-                    forces[n, i, 2] = shares[n, i, 0] * units[m, i, 2]
-                    forces[n, i, 3] = shares[n, i, 3] * units[m, i, 3]
-                else:
-                    for c in range(4):
-                        forces[n, i, c] = 0.0
+    write_forces(which, units, shares, status, forces)
+
+
+@numba.njit(**INSIDE)
+def centre_bound(block, groups, task, load, eps, unit, multiplier, nu):
+    """Bound eq. (11)'s objective by its dual in closed form (``barrier.objective_upper``)."""
+    along = dot(multiplier, task)
+    if not along > 0.0:
+        return math.inf
+    scale = 1.0 / min(along, 1.0)
+    bound = dot(multiplier, load) * scale
+    for g in range(len(nu)):
+        bound += max(nu[g], 0.0) * scale
+    for i in range(len(groups)):
+        h0, h1, h2, h3 = 0.0, 0.0, 0.0, 0.0
+        for j in range(6):
+            x = multiplier[j] * scale
+            h0 += block[i, 0, j] * x
+            h1 += block[i, 1, j] * x
+            h2 += block[i, 2, j] * x
+            h3 += block[i, 3, j] * x
+        s = max(nu[groups[i]], 0.0) * scale - h0
+        rest = math.sqrt(h1 * h1 + h2 * h2 + h3 * h3)
+        if not s > rest:
+            return math.inf
+        if unit[i, 0] > 0.0 or unit[i, 3] > 0.0:
+            bound += eps * (math.log(4.0 * eps * eps / ((s - rest) * (s + rest))) - 2.0)
+        else:
+            bound += eps * (math.log(eps / s) - 1.0)
+    return bound
+
+
+@numba.njit(**INSIDE)
+def log_det_sum(share, unit):
+    """Sum of log det P_i over the contacts, -inf on an edge (``friction_cone.log_det``)."""
+    total = 0.0
+    for i in range(len(share)):
+        norm = math.sqrt(share[i, 1] ** 2 + share[i, 2] ** 2 + share[i, 3] ** 2)
+        if not share[i, 0] > norm:
+            return -math.inf
+        if unit[i, 0] > 0.0 or unit[i, 3] > 0.0:
+            total += math.log((share[i, 0] - norm) * (share[i, 0] + norm))
+        else:
+            total += math.log(share[i, 0])
+    return total
+
+
+@numba.njit(**COMPILE)
+def judge_centres(tolerances, blocks, which, groups, group_count, tasks, loads, reaches,
+                  least_caps, units, sizes, weight, alphas, shares, multipliers, nus, uppers,
+                  status, forces):
+    """
+    Judge the kernel's answers to N problems with a barrier weight.
+
+    As ``judge_many``, with ``weight`` eps in the unit of alpha, the bound's multipliers ``nus``
+    (N, groups), and in ``uppers`` (N,) what is proved of alpha without the weight.
+
+    """
+    per_group, usage = np.empty(group_count), np.empty(len(groups))
+    for n in range(len(which)):
+        m, eps = which[n], weight * sizes[n]
+        claimed = min(alphas[n], uppers[n] * sizes[n])
+        alpha, _, _, residual, imbalance, largest, used = judge(
+            blocks[m], groups, tasks[n], loads[n], reaches[m], least_caps[m], claimed, shares[n],
+            multipliers[n], tolerances[5], tolerances[6], per_group, usage)
+        upper = centre_bound(
+            blocks[m], groups, tasks[n], loads[n], eps, units[m], multipliers[n], nus[n])
+        objective = alpha + eps * log_det_sum(shares[n], units[m])
+        proved = (upper - objective) / max(max(alpha, eps), 1e-3 * reaches[m]) <= tolerances[0] \
+            and holds(alpha, alpha, reaches[m], residual, imbalance, largest, used, tolerances)
+        alphas[n] = alpha / sizes[n] if proved else 0.0
+        status[n] = OPTIMAL if proved else UNPROVED
+    write_forces(which, units, shares, status, forces)

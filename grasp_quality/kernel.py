@@ -37,7 +37,7 @@ WIDTH = 4  # problems at a time; 8 answer maps a fifth faster and one alone half
 
 STEP_SHARE = 0.99   # of the way to the edge of the cones
 SHORTEST_STEP = 1e-12
-REGULARISATION = 1e-15  # of the Schur complement's trace: grasps may be rank-deficient
+REGULARISATION = 1e-16  # of the Schur complement's trace: grasps may be rank-deficient
 
 RELATIVE_GAP = 1e-9     # of max(alpha, 1e-2 a0), aimed at
 WEIGHTED_GAP = 1e-12    # of the same, or of the largest weight: a smooth optimum is that sharp

@@ -124,8 +124,7 @@ def evaluate_many(
     wrenches = np.broadcast_to(wrenches, (*shape, 6)).reshape(-1, 6)
     loads = np.broadcast_to(loads, (*shape, 6)).reshape(-1, 6)
     answers = Answers.empty(len(which), int(np.diff(grasps.starts).max()) if forces else 0)
-    if eps == 0.0:
-        by_kernel(grasps, which, wrenches, loads, answers, limit)
+    by_kernel(grasps, which, wrenches, loads, answers, limit, eps)
     unproved = np.flatnonzero(answers.status == judge.UNPROVED)
     for n in unproved:
         _alone(grasps[int(which[n])], wrenches[n], loads[n], eps, limit, answers, n)
@@ -136,7 +135,8 @@ def evaluate_many(
 
 
 def by_kernel(grasps: GraspSet, which: NDArray[np.int64], wrenches: NDArray[np.float64],
-              loads: NDArray[np.float64], answers: Answers, limit: TimeLimit | None) -> None:
+              loads: NDArray[np.float64], answers: Answers, limit: TimeLimit | None,
+              eps: float = 0.0) -> None:
     """Answer what the kernel can, pattern by pattern; the rest stays marked as unproved."""
     jobs = []
     pattern = _pattern_of(grasps)
@@ -149,7 +149,7 @@ def by_kernel(grasps: GraspSet, which: NDArray[np.int64], wrenches: NDArray[np.f
         members, local = np.unique(which[problems], return_inverse=True)
         scaled = Scaled.of_rows(grasps, members)
         part = Answers.empty(len(problems), len(scaled.groups) if len(answers.forces) else 0)
-        solve_part(scaled, local, wrenches[problems], loads[problems], part)
+        solve_part(scaled, local, wrenches[problems], loads[problems], part, eps)
         answers.alpha[problems], answers.upper[problems] = part.alpha, part.upper
         answers.status[problems] = part.status
         if len(answers.forces):

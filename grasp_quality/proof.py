@@ -44,7 +44,7 @@ class Proof:
         Share of each friction cone in use, down to rounding.
     imbalance : float
         The same residual as a share of what is balanced: the larger of task and load, or a
-        hundredth of the smallest cap. Keeps small fingers honest beside large ones.
+        hundredth of the smallest cap. Keeps small fingers honest; no matter to a common press.
     bound_usage : float
         How much of the force bound the normals take.
     multiplier : (6,) array
@@ -173,7 +173,7 @@ def prove(problem, shares, values, multipliers):
     return Proof(
         objective=float(virtual.objective @ values), upper=float(upper),
         residual=left / size_of_forces,
-        imbalance=left / max(balanced, SMALL_CAP * grasp.least_cap),
+        imbalance=left / max(balanced, SMALL_CAP * grasp.least_cap) * (virtual.role != 'pressing'),
         cone_usage=friction_cone.usage_of_shares(shares, unloaded=ROUNDING),
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
         multiplier=frozen(multipliers[:6]), bound_multiplier=frozen(per_contact),

@@ -10,7 +10,7 @@ from grasp_quality import (
 from known_grasps import antipodal, FX, FY, FZ, three_finger
 import numpy as np
 import pytest
-from tolerances import SOLVER
+from tolerances import CLOSED_FORM, SOLVER
 
 
 @pytest.mark.parametrize('eps', [0.0, 0.05])
@@ -32,6 +32,18 @@ def test_answers_are_those_of_evaluate(eps, loaded):
             assert balance + (loads[i] if loaded else 0.0) == pytest.approx(0.0, abs=SOLVER)
         else:
             assert not many.forces[i].any()
+
+
+def test_the_kernel_does_the_barrier_weight_too():
+    """The closed form of eq. (11) for an antipodal pair; nothing is handed over."""
+    mu = np.linspace(0.1, 1.0, 20)
+    for eps in (1e-3, 0.05, 1.0):
+        many = evaluate_many(
+            GraspSet.varied(antipodal(), friction=np.stack([mu, mu], axis=1)), FY, None, eps, True)
+        assert many.handed_over == 0
+        assert many.alpha == pytest.approx(2.0 * (np.sqrt(mu**2 + eps**2) - eps), rel=CLOSED_FORM)
+        assert many.alpha_upper == pytest.approx(2.0 * mu, rel=SOLVER)
+        assert many.forces[:, :, :2].sum(axis=1) != pytest.approx(0.0)
 
 
 def test_degenerate_grasps():
