@@ -23,6 +23,7 @@ from grasp_quality.indices import grasp_indices, GraspIndices
 from grasp_quality.joint_limits import JointLimits
 from grasp_quality.many import evaluate_many, ManySolution, Outcome
 from grasp_quality.margin_forces import hold_forces, HoldForces
+from grasp_quality.measured_margin import measured_margin, MeasuredMargin
 from grasp_quality.measures import evaluate, slip_margin, wrench_map
 from grasp_quality.problem import build_problem, ConicProblem
 from grasp_quality.robust import robust_alpha, RobustAlpha
@@ -36,9 +37,9 @@ __all__ = [
     'BallRadius', 'Change', 'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel',
     'Explanation', 'ForceClosure', 'Grasp', 'GraspIndices', 'GraspQualityError', 'GraspSet',
     'HoldForces', 'InvalidContactError', 'InvalidGraspError', 'InvalidTaskError', 'JointLimits',
-    'ManySolution', 'MinimumForces', 'Outcome', 'PolytopeSolution', 'RobustAlpha', 'Slopes',
-    'Solution', 'SolverError', 'SolverTimeoutError', 'Status', 'TaskCone', 'TaskEllipsoid',
-    'TaskPolytope', 'TaskWrench', 'WrenchMap', 'WrenchVolume', 'ball_radius', 'build_problem',
-    'ellipsoid_scale', 'evaluate', 'evaluate_many', 'explain', 'force_closure', 'grasp_indices',
-    'hold_forces', 'minimum_forces', 'robust_alpha', 'slip_margin', 'solve', 'volume',
-    'wrench_map']
+    'ManySolution', 'MeasuredMargin', 'MinimumForces', 'Outcome', 'PolytopeSolution',
+    'RobustAlpha', 'Slopes', 'Solution', 'SolverError', 'SolverTimeoutError', 'Status',
+    'TaskCone', 'TaskEllipsoid', 'TaskPolytope', 'TaskWrench', 'WrenchMap', 'WrenchVolume',
+    'ball_radius', 'build_problem', 'ellipsoid_scale', 'evaluate', 'evaluate_many', 'explain',
+    'force_closure', 'grasp_indices', 'hold_forces', 'measured_margin', 'minimum_forces',
+    'robust_alpha', 'slip_margin', 'solve', 'volume', 'wrench_map']

@@ -17,6 +17,7 @@ from grasp_quality.node_diagnostics import Monitor, PERIOD_S
 from grasp_quality.node_holding import HoldingForces
 from grasp_quality.node_inputs import Inputs
 from grasp_quality.node_live import LiveLoop
+from grasp_quality.node_margin import MarginTopic
 from grasp_quality.node_markers import Display
 from grasp_quality.node_outputs import Outputs
 from grasp_quality.node_security import unsecured_reason
@@ -58,8 +59,9 @@ class GraspQualityNode(LifecycleNode):
         self._outputs = Outputs(self)
         self._outputs.declare_wrenches(self.settings.contact_names)
         self._display = Display(self, current)
+        self._margin = MarginTopic(self._outputs.margin, current)
         self._live = LiveLoop(
-            self._inputs, self._outputs, current, self._monitor, self._display,
+            self._inputs, self._outputs, current, self._monitor, self._display, self._margin,
             HoldingForces(self.get_logger()), lambda: self.get_clock().now().to_msg())
         self._handlers = Services(self, self._inputs, current, lambda: self.active)
         self._subscribe()
@@ -183,10 +185,13 @@ class GraspQualityNode(LifecycleNode):
         """Publish NOT_ACTIVE with empty forces, see it delivered, and stop computing."""
         was_active, self.active = self.active, False
         self._inputs.clear()
+        self._live.forget()
         if was_active:
             stamp = self.get_clock().now().to_msg()
-            self._outputs.publish_failure(error_result(NotActiveError(reason)), stamp)
+            result = error_result(NotActiveError(reason))
+            self._outputs.publish_failure(result, stamp)
             self._display.clear(Header(stamp=stamp))
+            self._margin.fail(result, Header(stamp=stamp))
             self._outputs.flush(FLUSH_S, self._display.publishers)
 
     def on_error(self, state):

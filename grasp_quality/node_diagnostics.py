@@ -25,6 +25,13 @@ class Monitor:
         self._answers = self._failures = 0
         self._slowest_s = self._oldest_s = 0.0
         self._values = {}
+        self._lowest_margin = None  # measured, since the last report
+
+    def note_margin(self, margin):
+        """Note the smallest measured slip margin of a sample, or None."""
+        if margin is not None:
+            self._lowest_margin = min(margin, 1.0 if self._lowest_margin is None
+                                      else self._lowest_margin)
 
     def count(self, quality):
         """Note an answer of the live loop."""
@@ -71,13 +78,16 @@ class Monitor:
             'longest solve time [ms]': f'{1e3 * self._slowest_s:.3f}',
             'oldest contacts [ms]': f'{1e3 * self._oldest_s:.3f}',
             **self._values}
+        slipping = self._warned_margin()
+        if slipping:
+            values['lowest measured slip margin'] = f'{self._lowest_margin:.4g}'
         for i, problem in enumerate(problems):
             values[f'ignored input {i}'] = problem
         status = DiagnosticStatus(
-            level=self._level(problems), name=f'{self._node.get_name()}: live loop',
+            level=self._level(problems or slipping), name=f'{self._node.get_name()}: live loop',
             message='; '.join(filter(None, [
                 self._result.message or code_name(self._result.code),
-                f'{len(problems)} measured wrenches ignored' if problems else ''])),
+                f'{len(problems)} measured wrenches ignored' if problems else '', slipping])),
             hardware_id=self._node.get_fully_qualified_name(),
             values=[KeyValue(key=key, value=value) for key, value in values.items()])
         message = DiagnosticArray(status=[status])
@@ -85,6 +95,14 @@ class Monitor:
         self._publisher.publish(message)
         self._since, self._answers, self._failures = now, 0, 0
         self._slowest_s = self._oldest_s = 0.0
+        self._lowest_margin = None
+
+    def _warned_margin(self):
+        limit = self._node.settings.margin_warning
+        if self._lowest_margin is None or self._lowest_margin >= limit:
+            return ''
+        return (f'measured slip margin {self._lowest_margin:.3g} is below margin_warning '
+                f'{limit:g}')
 
     def _level(self, problems):
         if not self._node.active:

@@ -12,9 +12,11 @@ import time
 
 from grasp_quality.governing import governing
 from grasp_quality.measures import evaluate
+from grasp_quality.node_follow import Follower
 from grasp_quality.node_inputs import measured_margin
 from grasp_quality.node_quantile import live_quantile
 from grasp_quality.problem import NO_WRENCH
+from grasp_quality.task import TaskCone, TaskWrench
 from grasp_quality_msgs.msg import GraspQuality, ResultCode
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
 from msg_adapters.results import error_result, status_result
@@ -25,15 +27,17 @@ from std_msgs.msg import Header
 
 
 class LiveLoop:
-    """Evaluates ``inputs`` and publishes on ``outputs`` and ``display``; ``monitor`` counts."""
+    """Evaluates ``inputs`` for ``outputs``, ``margin`` and ``display``; ``monitor`` counts."""
 
-    def __init__(self, inputs, outputs, settings, monitor, display, holding, now):
+    def __init__(self, inputs, outputs, settings, monitor, display, margin, holding, now):
         self._inputs = inputs
         self._outputs = outputs
         self._settings = settings
         self._monitor = monitor
         self._display = display
         self._holding = holding
+        self._margin = margin
+        self._follower = Follower()
         self._now = now
 
     def evaluate(self):
@@ -43,6 +47,7 @@ class LiveLoop:
             scene = self._inputs.scene()
             quality, answer, load = self._answer(scene)
             self._outputs.publish(quality, scene.grasp, *answer)
+            self._follower.published(scene.grasp, answer[0])
             if quality.result.code == ResultCode.OPTIMAL:
                 left = self._settings().max_contact_age - self._inputs.age_s()
                 self._holding.publish(self._outputs, quality, scene.grasp, load, left)
@@ -50,6 +55,13 @@ class LiveLoop:
             self._monitor.count(quality)
         except Exception as exc:
             self._fail(exc, scene)
+        if scene is not None:
+            self._monitor.note_margin(measured_margin(scene))
+            self._margin.show(scene)
+
+    def forget(self):
+        """Begin anew, as after a deactivation: the next forces owe nothing to the last."""
+        self._follower.forget()
 
     def watch(self):
         """Publish a failure when there are no fresh contacts; else leave it to the samples."""
@@ -64,6 +76,8 @@ class LiveLoop:
         self._monitor.count_failure(result, exc)
         self._outputs.publish_failure(result, stamp, frame)
         self._display.clear(Header(stamp=stamp, frame_id=frame))
+        if scene is None:
+            self._margin.fail(result, Header(stamp=stamp, frame_id=frame))
 
     def _answer(self, scene):
         settings = self._settings()
@@ -71,9 +85,16 @@ class LiveLoop:
         task, load = self._task_and_load(scene)
         # the watchdog cannot bark during a solve, which must end before the contacts are stale
         limit = min(settings.solver_time_limit, settings.max_contact_age)
-        solution = evaluate(scene.grasp, task, load, settings.barrier_weight, limit)
-        solve_time = time.perf_counter() - started
+        solution = evaluate(scene.grasp, task, load, settings.barrier_weight, limit,
+                            settings.alpha_reserve, self._follower.start)
         solution, wrench = governing(task, solution)
+        single = task if isinstance(task, TaskCone) else TaskWrench(wrench)
+        solution, limited = self._follower.settle(
+            scene.grasp, single, load, solution, settings.force_rate_limit,
+            limit - (time.perf_counter() - started))
+        if single is task:
+            solution, wrench = governing(task, solution)
+        solve_time = time.perf_counter() - started
         margin = measured_margin(scene)
         quantile, reason = {}, ''
         if solution.feasible:
@@ -88,6 +109,7 @@ class LiveLoop:
             alpha=solution.alpha, alpha_upper=solution.alpha_upper,
             alpha_lower=solution.alpha_lower, holdable=solution.holdable,
             friction_margin=solution.friction_margin, limiting_contact=solution.limiting_contact,
+            force_rate_limited=limited,
             contact_age=to_duration(self._inputs.age_s()), solve_time=to_duration(solve_time),
             slip_measured=margin is not None, measured_slip_margin=margin or 0.0, **quantile)
         return quality, (solution.forces, solution.cone_usage), load

@@ -10,7 +10,7 @@ a zero wrench: nothing that was published before stays in force by silence.
 import time
 
 from geometry_msgs.msg import WrenchStamped
-from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode
+from grasp_quality_msgs.msg import ContactForceArray, GraspMargin, GraspQuality, ResultCode
 from msg_adapters import qos
 from msg_adapters.forces import contact_frame_wrench, force_array
 from msg_adapters.topic_names import names_a_topic, TOPIC_RULE
@@ -30,6 +30,7 @@ class Outputs:
         self._quality = self._publisher(GraspQuality, '~/quality')
         self._forces = self._publisher(ContactForceArray, '~/contact_forces')
         self._holding = self._publisher(ContactForceArray, '~/holding_forces')
+        self.margin = self._publisher(GraspMargin, '~/margin')
         self._wrenches = {}  # contact name: publisher, or None where the name makes no topic
 
     def publish(self, quality, grasp=None, forces=(), cone_usage=()):
@@ -80,7 +81,8 @@ class Outputs:
     def flush(self, timeout_s, others=()):
         """Wait until all subscribers have what was published: destroying a publisher drops it."""
         deadline = time.monotonic() + timeout_s
-        own = (self._forces, self._holding, self._quality, self._alpha, *self._wrenches.values())
+        own = (self._forces, self._holding, self._quality, self._alpha, self.margin,
+               *self._wrenches.values())
         for publisher in (*own, *others):
             left = deadline - time.monotonic()
             if publisher is not None and left > 0.0:

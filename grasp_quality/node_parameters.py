@@ -1,27 +1,20 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Parameters of the node: one table of descriptors, one frozen dataclass of checked values.
+Parameters of the node: one table of descriptors.
 
-A new parameter is a row of ``TABLE`` and a field of ``Settings``; a rule between parameters goes
-to ``Settings.__post_init__``. Values are checked in the on-set callback and swapped in the
+A new parameter is a row of ``TABLE`` and a field of ``node_settings.Settings``, where rules
+between parameters stand. Values are checked in the on-set callback and swapped in the
 post-set callback, so that a rejected set changes nothing. Bags are replayed with the same Settings
 and without ROS, which is why only the functions that talk to a node import it.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import fields
 import enum
 
-from grasp_quality.bounds import BOUNDS
-from grasp_quality.contact import ContactModel
-from grasp_quality.robust import CONFIDENCE
-from grasp_quality.sample_statistics import fewest_samples
-from grasp_quality.task import TaskWrench
-from grasp_quality.uncertainty import LARGEST_POSITION, LARGEST_TILT, Uncertainty
-from msg_adapters.contacts import ContactDefaults
-from msg_adapters.topic_names import names_a_topic, TOPIC_RULE
+from grasp_quality.node_settings import Settings
+from grasp_quality.uncertainty import LARGEST_POSITION, LARGEST_TILT
 
-SOURCES = ('pose_array', 'contact_array')
 LARGE = 1e6
 
 
@@ -34,97 +27,6 @@ class Type(enum.IntEnum):
     STRING = 4
     DOUBLE_ARRAY = 8
     STRING_ARRAY = 9
-
-
-@dataclass(frozen=True)
-class Settings:
-    """
-    Checked values of all parameters; names, units and meaning are those of ``TABLE``.
-
-    Raises
-    ------
-    ValueError
-
-    """
-
-    object_frame: str = ''
-    contact_source: str = 'pose_array'
-    contact_names: tuple = ()
-    contact_fingers: tuple = ()
-    contact_model: str = 'PCWF'
-    friction_coefficient: float = 0.5
-    torsional_friction_coefficient: float = 0.005
-    max_normal_force: float = 10.0
-    force_bound: str = 'linf'
-    barrier_weight: float = 0.0
-    task_wrench: tuple = ()
-    min_contact_force: float = 0.0
-    max_contact_age: float = 0.1
-    solver_time_limit: float = 1.0
-    max_request_size: int = 4096
-    map_directions: int = 2592
-    marker_rate: float = 20.0
-    marker_force_scale: float = 0.0
-    display_time_share: float = 0.05
-    quantile_samples: int = 0
-    quantile_level: float = 0.05
-    contact_noise: float = 0.0
-    normal_noise: float = 0.0
-    friction_noise: float = 0.0
-    load_noise: tuple = ()
-    autostart: bool = True
-    allow_unsecured: bool = False
-
-    def __post_init__(self):
-        """Check the rules that a range cannot say."""
-        _one_of('contact_source', self.contact_source, SOURCES)
-        _one_of('contact_model', self.contact_model, [m.value for m in ContactModel])
-        _one_of('force_bound', self.force_bound, BOUNDS)
-        for name in ('max_normal_force', 'max_contact_age', 'solver_time_limit'):
-            if not getattr(self, name) > 0.0:
-                raise ValueError(f'{name} must be greater than 0, got {getattr(self, name)}')
-        if '' in self.contact_names or len(set(self.contact_names)) != len(self.contact_names):
-            raise ValueError(
-                f'contact_names must be unique and not empty, got {list(self.contact_names)}')
-        for name in self.contact_names:
-            if not names_a_topic(name):
-                raise ValueError(f'contact_names must make topics: {TOPIC_RULE}, got {name!r}')
-        if self.min_contact_force > 0.0 and not self.contact_names:
-            raise ValueError(
-                'min_contact_force above 0 needs contact_names: they name the topics '
-                '~/contact_wrenches/<name> that measured forces come on')
-        if self.contact_fingers and len(self.contact_fingers) != len(self.contact_names):
-            raise ValueError(
-                f'contact_fingers must name one finger for each of the {len(self.contact_names)} '
-                f'contact_names, got {list(self.contact_fingers)}')
-        if self.task_wrench:
-            TaskWrench(self.task_wrench)
-        self._check_uncertainty()
-
-    def _check_uncertainty(self):
-        if not 0.0 < self.quantile_level < 1.0:
-            raise ValueError(
-                f'quantile_level must be between 0 and 1 exclusive, got {self.quantile_level}')
-        Uncertainty(self.contact_noise, self.normal_noise, self.friction_noise,
-                    self.load_noise or 0.0, contacts=1)
-        fewest = fewest_samples(self.quantile_level, CONFIDENCE)
-        if 0 < self.quantile_samples < fewest:
-            raise ValueError(
-                f'quantile_samples must be 0 (off) or at least {fewest} for the quantile_level '
-                f'{self.quantile_level:g}, got {self.quantile_samples}')
-
-    @property
-    def contact_defaults(self):
-        """Return what contact messages leave open."""
-        return ContactDefaults(
-            ContactModel[self.contact_model], self.friction_coefficient,
-            self.torsional_friction_coefficient, self.max_normal_force,
-            self.contact_names, self.contact_fingers)
-
-
-def _one_of(name, value, choices):
-    if value not in choices:
-        raise ValueError(f'{name} must be one of {list(choices)}, got {value!r}')
 
 
 # name: (type, description with unit, range or None, read-only)
@@ -148,10 +50,18 @@ TABLE = {
                     False),
     'barrier_weight': (Type.DOUBLE, 'Weight eps of the friction margin, eq. (11), in the unit of '
                        'alpha', (0.0, LARGE), False),
+    'alpha_reserve': (Type.DOUBLE, 'Share d of alpha given up for unique forces with margin that '
+                      'do not jump [-]; 0: forces of the largest alpha', (0.0, 1.0), False),
+    'force_rate_limit': (Type.DOUBLE, 'Largest change of the published force of a contact [N/s], '
+                         'a moment counted as m_n / gamma; 0: none', (0.0, LARGE), False),
     'task_wrench': (Type.DOUBLE_ARRAY, 'Task of the live loop: fx fy fz [N] tx ty tz [N m] in the '
                     'object frame; not set: none until one is given', None, False),
     'min_contact_force': (Type.DOUBLE, 'Measured normal force [N] from which a contact counts as '
                           'loaded; 0: all count, measured or not', (0.0, LARGE), False),
+    'wanted_margin': (Type.DOUBLE, 'Slip margin [-] that the changes on ~/margin restore',
+                      (0.0, 0.99), False),
+    'margin_warning': (Type.DOUBLE, 'Measured slip margin [-] below which /diagnostics warns; -1: '
+                       'never', (-1.0, 1.0), False),
     'max_contact_age': (Type.DOUBLE, 'Age [s] beyond which contacts are stale', (1e-3, 3600.0),
                         False),
     'solver_time_limit': (Type.DOUBLE, 'Time limit of one request or evaluation [s], > 0',

@@ -14,6 +14,7 @@ import time
 
 from grasp_quality.ball import ellipsoid_scale
 from grasp_quality.directions import force_grid
+from grasp_quality.explanation import explain
 from grasp_quality.holding import minimum_forces
 from grasp_quality.measures import evaluate, wrench_map
 from grasp_quality.node_worker import Worker
@@ -23,6 +24,7 @@ from grasp_quality.task import TaskWrench
 from grasp_quality.time_limit import TimeLimit
 from grasp_quality_msgs import srv
 from msg_adapters.errors import InvalidMessageError, NotActiveError
+from msg_adapters.explanations import fill_explanation
 from msg_adapters.forces import force_array
 from msg_adapters.results import error_result, status_result
 from msg_adapters.stamps import to_duration
@@ -55,6 +57,7 @@ class Services:
                 (srv.WrenchMap, self.wrench_map),
                 (srv.RobustAlpha, self.robust_alpha),
                 (srv.BallRadius, self.ball_radius),
+                (srv.Explain, self.explain),
                 (srv.SetTask, self.set_task)):
             waits = inspect.iscoroutinefunction(handler)
             node.create_service(
@@ -96,7 +99,9 @@ class Services:
         return TimeLimit.of(self._settings().solver_time_limit)
 
     async def _evaluate(self, grasp, task, load):
-        question = grasp, task, load, self._settings().barrier_weight, self._limit()
+        settings = self._settings()
+        question = (grasp, task, load, settings.barrier_weight, self._limit(),
+                    settings.alpha_reserve)
         if isinstance(task, TaskWrench) and len(grasp) < MANY_CONTACTS:
             return evaluate(*question)
         return await self._worker.run(evaluate, *question)
@@ -196,6 +201,12 @@ class Services:
         answer = await self._worker.run(
             ellipsoid_scale, grasp, ellipsoid, width_from(request), self._limit())
         fill_ball_radius(response, answer)
+
+    async def explain(self, request, response):
+        """Answer what limits a task wrench, and what would change its alpha."""
+        grasp, _, transform, load = self._question(request)
+        fill_explanation(response, await self._worker.run(
+            explain, grasp, wrench_task(request.task_wrench, transform), load, self._limit()))
 
     def set_task(self, request, response):
         """Set task and load of the live loop, once they are known to be valid."""

@@ -16,7 +16,8 @@ from rclpy.parameter import Parameter
 NAMES = {
     'object_frame', 'contact_source', 'contact_names', 'contact_fingers', 'contact_model',
     'friction_coefficient', 'torsional_friction_coefficient', 'max_normal_force', 'force_bound',
-    'barrier_weight', 'task_wrench', 'min_contact_force', 'max_contact_age', 'solver_time_limit',
+    'barrier_weight', 'alpha_reserve', 'force_rate_limit', 'wanted_margin', 'margin_warning',
+    'task_wrench', 'min_contact_force', 'max_contact_age', 'solver_time_limit',
     'max_request_size', 'map_directions', 'marker_rate', 'marker_force_scale',
     'display_time_share', 'autostart', 'quantile_samples', 'quantile_level', 'contact_noise',
     'normal_noise', 'friction_noise', 'load_noise'}

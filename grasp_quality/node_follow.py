@@ -1,0 +1,75 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What the live loop remembers of its last forces: for a warm start, and for ``force_rate_limit``.
+
+The limit holds between the forces published last and the next, in object axes, by the time between
+them on the steady clock, failures in between included: what a hand did meanwhile is not known, and
+the last forces are the best guess. Other contacts (other names) and a deactivation begin anew.
+What is remembered is never published again: it is only where the way to forces that are proved for
+the present contacts begins.
+"""
+
+import time
+
+from grasp_quality.follow import follow
+from grasp_quality.problem import build_problem
+from grasp_quality.time_limit import TimeLimit
+import numpy as np
+
+
+class Follower:
+    """Last forces and answer of the live loop."""
+
+    def __init__(self):
+        self.forget()
+
+    def forget(self):
+        """Begin anew: the next forces may be any."""
+        self.start = None    # Solution with a reserve
+        self._names = None   # of the contacts
+        self._forces = None  # (k, 4): force in object axes, moment about the normal
+        self._time = 0.0
+
+    def settle(self, grasp, task, load, solution, rate, time_limit_s):
+        """
+        Hold an answer back to what the hand can follow.
+
+        Parameters
+        ----------
+        grasp : Grasp
+            Present contacts.
+        task : TaskWrench or TaskCone
+            Of the answer.
+        load : (6,) array [N, N m] or None
+            External wrench, in the object frame.
+        solution : Solution
+            Answer for these contacts.
+        rate : float [N/s]
+            force_rate_limit; 0 lets everything pass.
+        time_limit_s : float
+            For holding it back [s].
+
+        Returns
+        -------
+        Solution, and whether it was held back
+
+        """
+        self.start = solution if solution.feasible and solution.center is not None else None
+        if not solution.feasible:
+            return solution, False
+        if rate == 0.0 or self._names != grasp.names:
+            return solution, False
+        last = np.concatenate([np.einsum(
+            'kji,kj->ki', grasp.rotations, self._forces[:, :3]), self._forces[:, 3:]], axis=1)
+        followed = follow(
+            build_problem(grasp, task, load), solution, last,
+            rate * (time.monotonic() - self._time), TimeLimit.of(time_limit_s))
+        return followed.solution, followed.limited
+
+    def published(self, grasp, forces):
+        """Remember forces (k, 4) that were just published, in the contact frames of a grasp."""
+        if len(forces):
+            self._names, self._time = grasp.names, time.monotonic()
+            self._forces = np.concatenate(
+                [np.einsum('kij,kj->ki', grasp.rotations, forces[:, :3]), forces[:, 3:]], axis=1)

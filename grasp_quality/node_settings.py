@@ -1,0 +1,122 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Checked values of the node's parameters, and the rules that a range cannot say.
+
+``node_parameters`` declares them, with type, unit and range; bags are replayed with the same
+values and without ROS.
+"""
+
+from dataclasses import dataclass
+
+from grasp_quality.bounds import BOUNDS
+from grasp_quality.contact import ContactModel
+from grasp_quality.robust import CONFIDENCE
+from grasp_quality.sample_statistics import fewest_samples
+from grasp_quality.task import TaskWrench
+from grasp_quality.uncertainty import Uncertainty
+from msg_adapters.contacts import ContactDefaults
+from msg_adapters.topic_names import names_a_topic, TOPIC_RULE
+
+SOURCES = ('pose_array', 'contact_array')
+
+
+@dataclass(frozen=True)
+class Settings:
+    """
+    Checked values of all parameters; names, units and meaning are those of ``TABLE``.
+
+    Raises
+    ------
+    ValueError
+
+    """
+
+    object_frame: str = ''
+    contact_source: str = 'pose_array'
+    contact_names: tuple = ()
+    contact_fingers: tuple = ()
+    contact_model: str = 'PCWF'
+    friction_coefficient: float = 0.5
+    torsional_friction_coefficient: float = 0.005
+    max_normal_force: float = 10.0
+    force_bound: str = 'linf'
+    barrier_weight: float = 0.0
+    alpha_reserve: float = 0.0
+    force_rate_limit: float = 0.0
+    task_wrench: tuple = ()
+    min_contact_force: float = 0.0
+    wanted_margin: float = 0.2
+    margin_warning: float = -1.0
+    max_contact_age: float = 0.1
+    solver_time_limit: float = 1.0
+    max_request_size: int = 4096
+    map_directions: int = 2592
+    marker_rate: float = 20.0
+    marker_force_scale: float = 0.0
+    display_time_share: float = 0.05
+    quantile_samples: int = 0
+    quantile_level: float = 0.05
+    contact_noise: float = 0.0
+    normal_noise: float = 0.0
+    friction_noise: float = 0.0
+    load_noise: tuple = ()
+    autostart: bool = True
+    allow_unsecured: bool = False
+
+    def __post_init__(self):
+        """Check the rules that a range cannot say."""
+        _one_of('contact_source', self.contact_source, SOURCES)
+        _one_of('contact_model', self.contact_model, [m.value for m in ContactModel])
+        _one_of('force_bound', self.force_bound, BOUNDS)
+        for name in ('max_normal_force', 'max_contact_age', 'solver_time_limit'):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f'{name} must be greater than 0, got {getattr(self, name)}')
+        if '' in self.contact_names or len(set(self.contact_names)) != len(self.contact_names):
+            raise ValueError(
+                f'contact_names must be unique and not empty, got {list(self.contact_names)}')
+        for name in self.contact_names:
+            if not names_a_topic(name):
+                raise ValueError(f'contact_names must make topics: {TOPIC_RULE}, got {name!r}')
+        if self.min_contact_force > 0.0 and not self.contact_names:
+            raise ValueError(
+                'min_contact_force above 0 needs contact_names: they name the topics '
+                '~/contact_wrenches/<name> that measured forces come on')
+        if self.contact_fingers and len(self.contact_fingers) != len(self.contact_names):
+            raise ValueError(
+                f'contact_fingers must name one finger for each of the {len(self.contact_names)} '
+                f'contact_names, got {list(self.contact_fingers)}')
+        if self.task_wrench:
+            TaskWrench(self.task_wrench)
+        if self.alpha_reserve >= 1.0:
+            raise ValueError(f'alpha_reserve must be less than 1, got {self.alpha_reserve}')
+        if self.alpha_reserve > 0.0 and self.barrier_weight > 0.0:
+            raise ValueError(
+                f'barrier_weight {self.barrier_weight:g} and alpha_reserve '
+                f'{self.alpha_reserve:g} are two ways to buy margin with alpha: set one to 0')
+        self._check_uncertainty()
+
+    def _check_uncertainty(self):
+        if not 0.0 < self.quantile_level < 1.0:
+            raise ValueError(
+                f'quantile_level must be between 0 and 1 exclusive, got {self.quantile_level}')
+        Uncertainty(self.contact_noise, self.normal_noise, self.friction_noise,
+                    self.load_noise or 0.0, contacts=1)
+        fewest = fewest_samples(self.quantile_level, CONFIDENCE)
+        if 0 < self.quantile_samples < fewest:
+            raise ValueError(
+                f'quantile_samples must be 0 (off) or at least {fewest} for the quantile_level '
+                f'{self.quantile_level:g}, got {self.quantile_samples}')
+
+    @property
+    def contact_defaults(self):
+        """Return what contact messages leave open."""
+        return ContactDefaults(
+            ContactModel[self.contact_model], self.friction_coefficient,
+            self.torsional_friction_coefficient, self.max_normal_force,
+            self.contact_names, self.contact_fingers)
+
+
+def _one_of(name, value, choices):
+    if value not in choices:
+        raise ValueError(f'{name} must be one of {list(choices)}, got {value!r}')
