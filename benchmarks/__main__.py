@@ -13,7 +13,7 @@ import importlib
 from benchmarks import document
 
 SECTIONS = ('speed', 'agreement', 'robustness', 'node', 'uncertainty', 'study', 'derivatives',
-            'worst_case', 'solvers', 'kernel_check', 'first_call', 'viewing')
+            'worst_case', 'solvers', 'kernel_check', 'first_call', 'viewing', 'continuity')
 
 
 def main():

@@ -4,9 +4,9 @@
 Published forces while contacts move: how far they jump, and what alpha it costs to keep them calm.
 
 Each contact rolls on a ball along a winding path, 0.1 mm and 0.1 degree a step, 1,000 steps at
-100 Hz. Four ways to choose the forces: of the largest alpha; with a reserve; that and a rate limit;
-the rate limit alone. Every force set is checked for cones, caps and equilibrium apart from the
-solver.
+100 Hz. Four ways to choose the forces: of the largest alpha; with a reserve; that and a rate
+limit; the rate limit alone. Every force set is checked for cones, caps and equilibrium apart from
+the solver.
 """
 
 from pathlib import Path
@@ -30,7 +30,7 @@ PICTURE = Path(__file__).parents[1] / 'docs' / 'images' / 'continuity.png'
 
 
 def paths(count, seed):
-    """Unit vectors (steps + 1, count, 3) of contacts that wander over a ball."""
+    """Return unit vectors (steps + 1, count, 3) of contacts that wander over a ball."""
     rng = np.random.default_rng(seed)
     points = rng.normal(size=(count, 3))
     for _ in range(200):  # spread them first, as fingers are
@@ -58,7 +58,7 @@ def grasp_at(points):
 
 
 def follow_path(points, reserve, rate):
-    """Forces (steps + 1, k, 3) in object axes, alpha and its largest value of every step."""
+    """Return forces (steps + 1, k, 3) in object axes, alpha and its largest value, by step."""
     forces, alphas, largest, start = [], [], [], None
     for grasp in map(grasp_at, points):
         solution = evaluate(grasp, TASK, alpha_reserve=reserve, start=start)
