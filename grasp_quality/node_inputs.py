@@ -80,9 +80,11 @@ class Inputs:
         self._wrenches = {}
 
     def store_contacts(self, message):
-        """Keep a PoseArray or ContactArray, unless one with a later stamp is still fresh."""
-        if not self._is_late(message):
-            self._contacts = (message, self._steady_ns())
+        """Keep a PoseArray or ContactArray, unless one with a later stamp is fresh; tell if so."""
+        if self._is_late(message):
+            return False
+        self._contacts = (message, self._steady_ns())
+        return True
 
     def _is_late(self, message):
         if self._contacts is None or not stamp_ns(message.header.stamp):

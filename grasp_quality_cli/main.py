@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import sys
 
 from grasp_quality import GraspQualityError, SolverError
+from grasp_quality_cli.bag import evaluate_bag
 from grasp_quality_cli.evaluate import evaluate_grasp
 from grasp_quality_cli.output import EPILOG, NOT_SOLVED, STOPPED, WRONG_INPUT
 from grasp_quality_cli.study import study
@@ -27,6 +28,7 @@ app = typer.Typer(
     add_completion=False, help=HELP, epilog=EPILOG,
     context_settings={'help_option_names': ['-h', '--help']})
 app.command('evaluate', epilog=EPILOG)(evaluate_grasp)
+app.command('bag', epilog=EPILOG)(evaluate_bag)
 app.command('study', epilog=EPILOG)(study)
 
 
