@@ -10,6 +10,8 @@ import sys
 from grasp_quality import GraspQualityError, SolverError
 from grasp_quality_cli.bag import evaluate_bag
 from grasp_quality_cli.evaluate import evaluate_grasp
+from grasp_quality_cli.figures import paper_figures
+from grasp_quality_cli.map import map_grasp
 from grasp_quality_cli.output import EPILOG, NOT_SOLVED, STOPPED, WRONG_INPUT
 from grasp_quality_cli.study import study
 from grasp_quality_cli.study_error import StoppedError
@@ -28,7 +30,9 @@ app = typer.Typer(
     add_completion=False, help=HELP, epilog=EPILOG,
     context_settings={'help_option_names': ['-h', '--help']})
 app.command('evaluate', epilog=EPILOG)(evaluate_grasp)
+app.command('map', epilog=EPILOG)(map_grasp)
 app.command('bag', epilog=EPILOG)(evaluate_bag)
+app.command('figures', epilog=EPILOG)(paper_figures)
 app.command('study', epilog=EPILOG)(study)
 
 

@@ -25,6 +25,7 @@ setup(
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
+            'bag_recorder = grasp_quality_hand.bag_recorder:main',
             'demo = grasp_quality_hand.demo:main',
             'fetch_dclaw = grasp_quality_hand.fetch_dclaw:main',
             'force_audit = grasp_quality_hand.force_audit_node:main',

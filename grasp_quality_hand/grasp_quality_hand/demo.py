@@ -19,6 +19,7 @@ from grasp_quality import Contact, ContactModel, Grasp, slip_margin
 from grasp_quality_hand.demo_client import DemoClient
 from grasp_quality_hand.demo_processes import ChildProcess, claim_domain, DemoFailure, executable
 from grasp_quality_hand.demo_questions import ask_all
+from grasp_quality_hand.demo_recording import recording
 from grasp_quality_hand.demo_report import report
 from grasp_quality_hand.demo_viewer import show_page
 from grasp_quality_hand.grasp_objects import FRICTION, OBJECTS, TORSIONAL_FRICTION
@@ -84,8 +85,9 @@ def _run(options, output, children):
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     client = DemoClient(FINGERS, TARGET, HAND, children)
     try:
-        for name in options.objects:
-            _show(client, OBJECTS[name], output)
+        with recording(output, _node_parameters()):
+            for name in options.objects:
+                _show(client, OBJECTS[name], output)
         if options.keep:
             show_page(client, children, output)
             _wait(children)
@@ -99,15 +101,19 @@ def _hand_command():
     return [executable('grasp_quality_hand', 'simulated_hand')]
 
 
-def _node_command():
-    """Return the command of the node, with what is known about this hand."""
+def _node_parameters():
+    """Return what is known about this hand."""
     fingers = f'[{", ".join(FINGERS)}]'
-    parameters = {
+    return {
         'contact_names': fingers, 'contact_fingers': fingers, 'contact_model': 'SFCE',
         'friction_coefficient': FRICTION, 'torsional_friction_coefficient': TORSIONAL_FRICTION,
         'max_normal_force': CAP, 'min_contact_force': MIN_CONTACT_FORCE}
+
+
+def _node_command():
+    """Return the command of the node, with the parameters of this hand."""
     command = [executable('grasp_quality', 'grasp_quality_node'), '--ros-args']
-    for name, value in parameters.items():
+    for name, value in _node_parameters().items():
         command += ['-p', f'{name}:={value}']
     return command
 

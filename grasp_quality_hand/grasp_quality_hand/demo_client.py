@@ -20,6 +20,7 @@ from std_srvs.srv import Trigger
 
 START_DEADLINE = 60.0        # for a service to appear: the node compiles before it answers [s]
 ANSWER_DEADLINE = 20.0       # for one answer [s]
+NOT_YET = (ResultCode.NO_CONTACTS, ResultCode.STALE_CONTACTS)
 KEPT = 100                   # samples that are kept
 
 
@@ -130,12 +131,13 @@ class DemoClient:
         """
         Call a service of the grasp_quality node; anything but OPTIMAL is a DemoFailure.
 
-        On a busy machine contacts may be late for once: then ask again.
+        A node that has just started may not have heard any contacts, and on a busy machine they
+        may be late for once: then ask again.
 
         """
         name, end = f'{self._target}/{name}', time.monotonic() + ANSWER_DEADLINE
         response, round_trip = self.call(service_type, name, request)
-        while response.result.code == ResultCode.STALE_CONTACTS and time.monotonic() < end:
+        while response.result.code in NOT_YET and time.monotonic() < end:
             response, round_trip = self.call(service_type, name, request)
         if response.result.code != ResultCode.OPTIMAL:
             raise DemoFailure(f'{name} answered with code {response.result.code} instead of '

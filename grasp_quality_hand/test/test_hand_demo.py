@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The demo as its user runs it: a process that ends by itself and leaves none behind."""
 
+import json
 import os
 from pathlib import Path
 import signal
@@ -10,6 +11,7 @@ import time
 import urllib.request
 import uuid
 
+from grasp_quality_cli.main import main
 from grasp_quality_hand.demo_processes import executable
 import pytest
 
@@ -81,11 +83,25 @@ def test_demo_prints_and_draws_and_leaves_nothing_behind(demo):
     assert run.processes() == []
 
 
+def test_the_bag_that_the_demo_records_can_be_evaluated(demo, tmp_path, capsys):
+    run = demo('--objects', 'cube')
+    code, output = run.end()
+    assert code == 0 and 'Recorded: ' in output, output
+    code = main(['bag', str(run.output / 'bag'), '--params', str(run.output / 'parameters.yaml'),
+                 '--task', '0 0 1 0 0 0', '-o', str(tmp_path / 'results'), '--json'])
+    row = json.loads(capsys.readouterr().out)
+    assert code == 0 and row['damage'] == []
+    assert row['codes']['OPTIMAL'] > 50 and row['alpha_max'] > 1.0
+    assert row['measured_slip_margin_min'] is not None
+
+
 def test_ctrl_c_ends_everything(demo):
     run = demo('--keep')
     run.wait_for_line('starting')
-    time.sleep(1.0)
-    assert len(run.processes()) == 3
+    end = time.monotonic() + DEADLINE
+    while len(run.processes()) < 4:    # demo, hand, node, recorder
+        assert time.monotonic() < end
+        time.sleep(0.05)
     run.process.send_signal(signal.SIGINT)
     code, output = run.end()
     assert code in (0, 130) and 'Traceback' not in output

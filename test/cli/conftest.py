@@ -9,7 +9,7 @@ from grasp_quality_cli.main import main
 import pytest
 
 ROOT = Path(__file__).parents[2]
-sys.path[:0] = [str(ROOT), str(ROOT / 'test' / 'core')]
+sys.path[:0] = [str(ROOT), str(ROOT / 'test' / 'core'), str(ROOT / 'test' / 'node')]
 
 
 @pytest.fixture
