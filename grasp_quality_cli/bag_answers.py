@@ -62,7 +62,8 @@ class Answered:
 def answered(samples: Sequence[Sample], barrier_weight: float) -> list[Answered]:
     """Answer samples in their order; errors become codes, as in the node."""
     batch = [i for i, sample in enumerate(samples)
-             if sample.error is None and isinstance(sample.task, TaskWrench)]
+             if sample.scene is not None and isinstance(sample.task, TaskWrench)
+             and sample.scene.grasp.joint_limits is None]  # the batch does not know them
     found: dict[int, Answered] = {}
     if batch:
         try:

@@ -22,8 +22,12 @@ OURS = {
         'string name\nstring finger\ngeometry_msgs/Pose pose\nuint8 model\n'
         'float64 friction_coefficient\nfloat64 torsional_friction_coefficient\n'
         'float64 max_normal_force\n'),
-    'grasp_quality_msgs/msg/ContactArray':
-        'std_msgs/Header header\ngrasp_quality_msgs/Contact[] contacts\n'}
+    'grasp_quality_msgs/msg/JointLimit': (
+        'string name\nfloat64 max_torque\nfloat64 gravity_torque\n'
+        'geometry_msgs/Twist[] twists\n'),
+    'grasp_quality_msgs/msg/ContactArray': (
+        'std_msgs/Header header\ngrasp_quality_msgs/Contact[] contacts\n'
+        'grasp_quality_msgs/JointLimit[] joint_limits\n')}
 IDL_RULE = '=' * 80 + '\n'
 
 

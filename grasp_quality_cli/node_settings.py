@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from grasp_quality.node_parameters import Settings, TABLE, Type
+from grasp_quality_cli.source_item import SourceItem
 from grasp_quality_cli.task_text import ArgumentError
 from grasp_quality_cli.yaml_source import load_yaml, YamlItem
 import yaml  # type: ignore[import-untyped]
@@ -54,7 +55,7 @@ def read_settings(path: Path | None, assignments: Sequence[str], node: str, sour
         raise ArgumentError(f'the parameters do not fit each other: {exc}') from exc
 
 
-def _from_file(source: YamlItem, node: str) -> dict[str, Any]:
+def _from_file(source: SourceItem, node: str) -> dict[str, Any]:
     sections = source.named_items()
     found: dict[str, Any] = {}
     used = [key for key in ('/**', node.lstrip('/').rpartition('/')[2], node) if key in sections]
@@ -82,7 +83,7 @@ def _scalar(text: str) -> yaml.ScalarNode:
     return yaml.ScalarNode('', text, yaml.Mark('', 0, 0, 0, None, 0))
 
 
-def _value(item: YamlItem) -> Any:
+def _value(item: SourceItem) -> Any:
     """Read a value by the type of its parameter, inside its range."""
     kind, _, limits, _ = TABLE[item.name.rpartition('.')[2]]
     if kind is Type.BOOL:

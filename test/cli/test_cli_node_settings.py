@@ -51,6 +51,6 @@ def test_our_types_are_those_of_the_interface_files(name):
     package, _, message = name.split('/')
     text = (ROOT / package / 'msg' / f'{message}.msg').read_text()
     lines = [line.split('#')[0].strip() for line in text.splitlines()]
-    ours = OURS[name].replace('grasp_quality_msgs/Contact[]', 'Contact[]')
+    ours = OURS[name].replace('grasp_quality_msgs/', '')
     assert [line.split() for line in lines if line] == [
         line.split() for line in ours.splitlines()]
