@@ -91,3 +91,8 @@ class ChildProcess:
                 except subprocess.TimeoutExpired:
                     continue
         return self._process.returncode
+
+    def kill(self):
+        """Kill the process, as a crash does."""
+        self._process.kill()
+        self._process.wait()

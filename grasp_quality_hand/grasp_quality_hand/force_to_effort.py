@@ -30,6 +30,7 @@ from msg_adapters.stamps import stamp_ns
 import numpy as np
 from numpy.typing import NDArray
 import rclpy
+from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
@@ -38,6 +39,7 @@ from std_msgs.msg import Float64MultiArray
 
 NONE = Pushes((), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
 REPORT_PERIOD_S = 1.0
+FLUSH_S = 0.5
 ENDING_EXTRA_S = 0.5  # beyond the ramp, after which the node ends anyhow
 
 
@@ -139,15 +141,21 @@ class ForceToEffort(Node):
         message = DiagnosticArray(status=[status])
         message.header.stamp = self.get_clock().now().to_msg()
         self._diagnostics.publish(message)
-        if report.phase.value != last:
-            log = self.get_logger()
-            (log.info if report.phase is Phase.FOLLOWING else log.warning)(status.message)
+        if report.phase.value != last:  # a line of code may log with one severity only
+            if report.phase is Phase.FOLLOWING:
+                self.get_logger().info(status.message)
+            else:
+                self.get_logger().warning(status.message)
         self._told = (report.phase.value, time.monotonic())
         self._commands, self._largest_share = 0, 0.0
 
     def end(self) -> None:
         """Follow nothing any more: go to the holding efforts."""
         self._bridge.ending = 'the node is ending'
+
+    def flush(self) -> None:
+        """See the last command delivered: destroying a publisher drops what is under way."""
+        self._publisher.wait_for_all_acked(Duration(seconds=FLUSH_S))
 
 
 def _level(report: Report) -> bytes:
@@ -179,6 +187,7 @@ def main(args: Optional[list[str]] = None) -> int:
     while time.monotonic() < deadline and (
             node.report is None or node.report.phase in (Phase.FOLLOWING, Phase.RAMPING)):
         executor.spin_once(timeout_sec=0.1)
+    node.flush()
     executor.shutdown()
     node.destroy_node()
     rclpy.try_shutdown()

@@ -3,6 +3,7 @@
 """A client that plays hand and object for force_to_effort, and the processes beside it."""
 
 import math
+import re
 import signal
 import subprocess
 import time
@@ -126,6 +127,8 @@ class Rig:
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)
                 assert process.wait(DEADLINE) == 0
+        for log in self.folder.glob('*.txt'):  # bad messages were sent, nothing else went wrong
+            assert set(re.findall(r'\w+Error', log.read_text())) <= {'InvalidMessageError'}, log
         self.executor.shutdown()
         self.node.destroy_node()
         rclpy.shutdown(context=self.context)
