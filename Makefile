@@ -6,9 +6,10 @@ PYTHON ?=
 DEMO_FLAGS ?=
 TEST_FLAGS ?=
 BENCH_FLAGS ?=
+TRUTH_FLAGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench clean
+.PHONY: help setup demo test lint bench truth clean
 
 help:
 	@echo 'make setup   make .venv (ROS included, where there is none) and build the packages'
@@ -17,6 +18,7 @@ help:
 	@echo 'make test    all tests (TEST_FLAGS goes to pytest)'
 	@echo 'make lint    style of the code'
 	@echo 'make bench   the figures of docs/performance.md (BENCH_FLAGS goes to it)'
+	@echo 'make truth   prediction against physics, docs/truth.md (TRUTH_FLAGS goes to it)'
 	@echo 'make clean   remove .venv, build/, install/ and log/'
 	@echo 'PYTHON=/path/to/python3.12 chooses the interpreter'
 
@@ -34,6 +36,9 @@ lint: setup
 
 bench: setup
 	@. ./env.sh && exec python -m benchmarks $(BENCH_FLAGS)
+
+truth: setup
+	@. ./env.sh && exec python -m benchmarks.truth $(TRUTH_FLAGS)
 
 clean:
 	rm -rf .venv build install log .pytest_cache .hypothesis

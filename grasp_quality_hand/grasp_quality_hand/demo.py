@@ -18,6 +18,7 @@ import time
 from grasp_quality import Contact, ContactModel, Grasp, slip_margin
 from grasp_quality_hand.demo_client import DemoClient
 from grasp_quality_hand.demo_processes import ChildProcess, claim_domain, DemoFailure, executable
+from grasp_quality_hand.demo_pull import show_pulls
 from grasp_quality_hand.demo_questions import ask_all
 from grasp_quality_hand.demo_recording import recording
 from grasp_quality_hand.demo_report import report
@@ -26,7 +27,8 @@ from grasp_quality_hand.grasp_objects import FRICTION, OBJECTS, TORSIONAL_FRICTI
 from grasp_quality_hand.grasp_picture import draw_grasp
 from grasp_quality_hand.hand_model import FINGERS
 from grasp_quality_hand.map_picture import draw_map
-from grasp_quality_hand.measured_grasp import wait_until_settled
+from grasp_quality_hand.measured_grasp import grasp_anew
+from grasp_quality_hand.pull_animation import draw_pull
 import numpy as np
 import rclpy
 from rclpy.signals import SignalHandlerOptions
@@ -34,6 +36,8 @@ from rclpy.signals import SignalHandlerOptions
 TARGET, HAND = '/grasp_quality', '/simulated_hand'
 CAP = 10.0                   # largest normal force of a finger [N]
 MIN_CONTACT_FORCE = 0.05     # [N]
+JOINT_DAMPING = 0.2          # of the hand's motors, small: it brakes what slips [N m s/rad]
+SHOWN = ('cube', 'ball')
 
 
 def main(args=None):
@@ -70,8 +74,8 @@ def _options(args):
     parser = argparse.ArgumentParser(description=__doc__.strip().splitlines()[0])
     parser.add_argument('--output', default='build/demo', help='folder for pictures and logs '
                         '(default %(default)s)')
-    parser.add_argument('--objects', nargs='+', choices=OBJECTS, default=list(OBJECTS),
-                        help='what the hand is to hold (default: one after the other, all)')
+    parser.add_argument('--objects', nargs='+', choices=OBJECTS, default=list(SHOWN),
+                        help=f'what the hand is to hold (default: {", ".join(SHOWN)})')
     parser.add_argument('--keep', action='store_true',
                         help='keep hand and node running until Ctrl-C')
     return parser.parse_args(args)
@@ -87,7 +91,7 @@ def _run(options, output, children):
     try:
         with recording(output, _node_parameters()):
             for name in options.objects:
-                _show(client, OBJECTS[name], output)
+                _show(client, children, OBJECTS[name], output)
         if options.keep:
             show_page(client, children, output)
             _wait(children)
@@ -98,7 +102,8 @@ def _run(options, output, children):
 
 def _hand_command():
     """Return the command of the simulated hand."""
-    return [executable('grasp_quality_hand', 'simulated_hand')]
+    return [executable('grasp_quality_hand', 'simulated_hand'), '--ros-args', '-p',
+            f'joint_damping:={JOINT_DAMPING}']
 
 
 def _node_parameters():
@@ -118,14 +123,11 @@ def _node_command():
     return command
 
 
-def _show(client, grasp_object, output):
-    """Let the hand hold one object, ask about the grasp, print and draw the answers."""
+def _show(client, children, grasp_object, output):
+    """Let the hand hold one object, ask about the grasp, pull on it, print and draw it all."""
     name = grasp_object.name
     client.choose_object(name)
-    client.trigger('load_object')
-    client.forget()
-    client.trigger('close')
-    grasp = wait_until_settled(client)
+    grasp = grasp_anew(client)
     answers = ask_all(client, grasp.weight)
     print(report(name, grasp, _slip_margins(grasp), CAP, answers), flush=True)
     pictures = output / f'{name}_grasp.png', output / f'{name}_force_map.png'
@@ -137,6 +139,10 @@ def _show(client, grasp_object, output):
     print(f'\nForce map: {len(directions)} directions, solved in '
           f'{1e3 * answers.force_map.solve_time:.0f} ms\nPictures: {pictures[0]}, {pictures[1]}',
           flush=True)
+    records = show_pulls(client, children, grasp_object, CAP, HAND, output)
+    animation = output / f'{name}_pull.gif'
+    draw_pull(animation, grasp_object, records[0])
+    print(f'Animation: {animation}', flush=True)
 
 
 def _slip_margins(grasp):

@@ -15,7 +15,7 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import Trigger
 
 START_DEADLINE = 60.0        # for a service to appear: the node compiles before it answers [s]
@@ -34,6 +34,10 @@ class Heard:
     object_pose: PoseStamped = None
     up: np.ndarray = None        # (3,) object frame
     mass: float = None           # [kg]
+    load: np.ndarray = None      # (6,) of a pull, object frame
+    load_rate: np.ndarray = None    # (6,) its growth a second
+    load_stamp: float = 0.0      # [s]
+    commands: int = 0            # of efforts to the hand's joints
 
 
 class DemoClient:
@@ -59,6 +63,10 @@ class DemoClient:
         self._listen(PoseStamped, f'{hand}/object_pose', self._keep('object_pose'))
         self._listen(Vector3Stamped, f'{hand}/up_in_object_frame', self._on_up)
         self._listen(Float64, f'{hand}/object_mass', self._on_mass)
+        self._listen(WrenchStamped, f'{hand}/load', self._on_load)
+        self._listener.node.create_subscription(
+            Float64MultiArray, '/effort_controller/commands', self._on_command, 1)
+        self.on_contacts = []        # each is called with every PoseArray of the contacts
 
     def _listen(self, message_type, topic, callback):
         """Subscribe as to any sensor."""
@@ -76,6 +84,8 @@ class DemoClient:
             [p.position.x, p.position.y, p.position.z,
              p.orientation.x, p.orientation.y, p.orientation.z, p.orientation.w]
             for p in message.poses])
+        for callback in self.on_contacts:
+            callback(message)
 
     def _on_wrench(self, message):
         """Keep the measured force of one finger; its frame bears the finger's name."""
@@ -92,6 +102,19 @@ class DemoClient:
     def _on_mass(self, message):
         """Keep the mass of the object."""
         self.heard.mass = message.data
+
+    def _on_load(self, message):
+        """Keep what a pull does to the object."""
+        force, torque = message.wrench.force, message.wrench.torque
+        load = np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
+        heard, stamp = self.heard, 1e-9 * _stamp(message)
+        if heard.load is not None and stamp > heard.load_stamp:
+            heard.load_rate = (load - heard.load) / (stamp - heard.load_stamp)
+        heard.load, heard.load_stamp = load, stamp
+
+    def _on_command(self, message):
+        """Count what is commanded to the joints."""
+        self.heard.commands += 1
 
     def forget(self):
         """Forget everything heard."""
@@ -126,6 +149,21 @@ class DemoClient:
         future = client.call_async(request)
         self._spin_until(self._caller, future.done, ANSWER_DEADLINE, f'{name} did not answer')
         return future.result(), time.perf_counter() - begin
+
+    def call_while_listening(self, service_type, name, request, deadline):
+        """Call a service that takes time, and listen until it answers; return the answer."""
+        future = self._client(service_type, name).call_async(request)
+
+        def answered():
+            self._caller.executor.spin_once(timeout_sec=0.0)
+            return future.done()
+
+        self.listen_until(answered, deadline, f'{name} did not answer')
+        return future.result()
+
+    def create_publisher(self, message_type, topic):
+        """Return a publisher of the listening node, reliable, depth 1."""
+        return self._listener.node.create_publisher(message_type, topic, 1)
 
     def ask(self, service_type, name, request):
         """

@@ -24,9 +24,10 @@ class GraspController:
 
     """
 
-    def __init__(self, hand, grasp_object, squeeze_force):
+    def __init__(self, hand, grasp_object, squeeze_force, damping=0.0):
         self._hand = hand
         self._squeeze_force = float(squeeze_force)
+        self._damping = damping    # beside that of the motors [N m s/rad]
         self._object = grasp_object
         self._weight = grasp_object.mass * -hand.mujoco.opt.gravity    # (3,) [N], upward
         touch = grasp_object.contact_points + [0.0, 0.0, grasp_object.height]
@@ -62,7 +63,8 @@ class GraspController:
         """Return the joint torques, shape (9,), in newton metres."""
         hand = self._hand
         error = self._posture(data.time) - data.qpos[hand.joint_qpos]
-        torques = STIFFNESS * error + data.qfrc_bias[hand.joint_dof]
+        torques = (STIFFNESS * error - self._damping * data.qvel[hand.joint_dof]
+                   + data.qfrc_bias[hand.joint_dof])
         share = self.squeeze_share(data.time)
         if share > 0.0:
             torques += share * self._squeeze_torques(data)

@@ -47,30 +47,30 @@ def draw_grasp(path, grasp_object, grasp, lift, joints, object_pose):
         In the hand's base frame.
 
     """
-    R, p = _pose(object_pose)
+    R, p = pose_of(object_pose)
     positions = grasp.positions @ R.T + p
     normals = np.einsum('ij,kj->ki', R, grasp.rotations[:, :, 2])
     measured = grasp.forces_in_object_frame @ R.T
     best = _forces(lift, grasp.fingers) @ R.T
     hand, tips = _hand(grasp_object, joints)
-    held = _object(grasp_object) @ R.T + p
-    near = [_part(tips, HAND, 0.10), _part(held, OBJECT, 0.30)]
+    held = object_triangles(grasp_object) @ R.T + p
+    near = [part(tips, HAND, 0.10), part(held, OBJECT, 0.30)]
     for point, normal, now, most in zip(positions, normals, measured, best):
-        near.append(_part(shapes.friction_cone(point, normal, FRICTION, CONE_HEIGHT), CONE, 0.35))
-        near.append(_part(shapes.arrow(point, METRES_PER_NEWTON * now, ARROW_RADIUS), MEASURED))
-        near.append(_part(shapes.arrow(point, METRES_PER_NEWTON * most, ARROW_RADIUS), LIFT))
+        near.append(part(shapes.friction_cone(point, normal, FRICTION, CONE_HEIGHT), CONE, 0.35))
+        near.append(part(shapes.arrow(point, METRES_PER_NEWTON * now, ARROW_RADIUS), MEASURED))
+        near.append(part(shapes.arrow(point, METRES_PER_NEWTON * most, ARROW_RADIUS), LIFT))
 
     figure = Figure(figsize=(13.0, 6.6))
     figure.subplots_adjust(left=0.0, right=0.96, bottom=0.09, top=0.95, wspace=0.08)
     FigureCanvasAgg(figure)
     whole = figure.add_subplot(1, 2, 1, projection='3d')
-    _draw(whole, [_part(shapes.facing(hand, VIEW), HAND),
-                  _part(shapes.facing(held, VIEW), OBJECT)])
-    _frame(whole, np.array([0.0, 0.0, 0.125]), 0.128)
+    draw_parts(whole, [part(shapes.facing(hand, VIEW), HAND),
+                       part(shapes.facing(held, VIEW), OBJECT)])
+    frame_axes(whole, np.array([0.0, 0.0, 0.125]), 0.128)
     whole.set_title(f"D'Claw holding the {grasp_object.name}, {MM * grasp_object.mass:.0f} g")
     detail = figure.add_subplot(1, 2, 2, projection='3d')
-    _draw(detail, near)
-    _frame(detail, p, 0.060)
+    draw_parts(detail, near)
+    frame_axes(detail, p, 0.060)
     for finger, point, normal in zip(grasp.fingers, positions, normals):
         detail.text(*(MM * (point - 0.022 * normal)), finger, ha='center', fontsize=11)
     detail.set_title(f'Contact forces on the {grasp_object.name} '
@@ -83,21 +83,21 @@ def draw_grasp(path, grasp_object, grasp, lift, joints, object_pose):
     figure.savefig(path, dpi=110)
 
 
-def _part(triangles, colour, alpha=1.0):
+def part(triangles, colour, alpha=1.0):
     """Return triangles cut fine, with their face and edge colours."""
     triangles = shapes.fine(triangles, LONGEST_EDGE)
     faces = shapes.shaded(triangles, colour, alpha)
     return triangles, faces, faces * [1.0, 1.0, 1.0, alpha == 1.0]
 
 
-def _draw(axes, parts):
+def draw_parts(axes, parts):
     """Draw triangles with their colours as one collection, so that all are sorted by depth."""
     triangles, faces, edges = (np.concatenate(things) for things in zip(*parts))
     axes.add_collection3d(Poly3DCollection(MM * triangles, facecolors=faces, edgecolors=edges,
                                            linewidths=0.3))
 
 
-def _frame(axes, centre, reach):
+def frame_axes(axes, centre, reach):
     """Set the limits about a centre in metres, and name the axes."""
     for axis, middle in zip('xyz', centre):
         getattr(axes, f'set_{axis}lim')(MM * (middle - reach), MM * (middle + reach))
@@ -109,7 +109,7 @@ def _frame(axes, centre, reach):
     axes.view_init(*VIEW)
 
 
-def _pose(message):
+def pose_of(message):
     """Return rotation and position of a PoseStamped."""
     p, q = message.pose.position, message.pose.orientation
     return rotation((q.x, q.y, q.z, q.w)), np.array([p.x, p.y, p.z])
@@ -121,7 +121,7 @@ def _forces(response, fingers):
     return np.array([[forces[f].x, forces[f].y, forces[f].z] for f in fingers])
 
 
-def _object(grasp_object):
+def object_triangles(grasp_object):
     """Return the triangles of the object in its own frame."""
     if grasp_object.shape == 'box':
         return shapes.box(grasp_object.size)
@@ -132,9 +132,15 @@ def _object(grasp_object):
 def _hand(grasp_object, joints):
     """Return the triangles of the hand's and of the fingertips' collision shapes, base frame."""
     hand = build_hand_model(grasp_object)
-    model, data = hand.mujoco, mujoco.MjData(hand.mujoco)
     angles = dict(zip(joints.name, joints.position))
-    data.qpos[hand.joint_qpos] = [angles[name] for name in hand.joint_names]
+    return hand_triangles(hand, mujoco.MjData(hand.mujoco),
+                          [angles[name] for name in hand.joint_names])
+
+
+def hand_triangles(hand, data, angles):
+    """Return the triangles of the hand's and of the fingertips' collision shapes, base frame."""
+    model = hand.mujoco
+    data.qpos[hand.joint_qpos] = angles
     mujoco.mj_kinematics(model, data)
     placed = {geom: _collision_shape(model, geom) @ data.geom_xmat[geom].reshape(3, 3).T
               + data.geom_xpos[geom] for geom in range(model.ngeom) if geom != hand.object_geom}

@@ -6,6 +6,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
 from grasp_quality_hand.effort_input import COMMAND_TIMEOUT
 from grasp_quality_hand.grasp_objects import OBJECTS
+from grasp_quality_hand.hand_model import DAMPING
 from grasp_quality_hand.simulation import DCLAW, POINTS, SQUEEZE_FORCE
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 
@@ -41,6 +42,9 @@ PARAMETERS: Dict[str, _Parameter] = {
     'command_timeout': _Parameter(
         COMMAND_TIMEOUT, "age of an effort command [s] beyond which the hand's own controller "
         f'takes over{FROM_NEXT_LOAD}', (0.01, 10.0)),
+    'joint_damping': _Parameter(
+        DAMPING, "of D'Claw's motors [N m s/rad]; it brakes what slips, too"
+        f'{FROM_NEXT_LOAD}', (0.0, 10.0)),
     'position_noise': _Parameter(0.0, 'standard deviation of contact positions [m]',
                                  (0.0, 0.01), read_only=True),
     'normal_noise': _Parameter(0.0, 'standard deviation of contact normals [rad]', (0.0, 0.5),

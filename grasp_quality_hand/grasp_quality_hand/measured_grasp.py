@@ -52,6 +52,14 @@ class MeasuredGrasp:
         return float(np.linalg.norm(missing) / np.linalg.norm(self.weight))
 
 
+def grasp_anew(client):
+    """Let the hand take the object once more, and return the MeasuredGrasp at rest."""
+    client.trigger('load_object')
+    client.forget()
+    client.trigger('close')
+    return wait_until_settled(client)
+
+
 def wait_until_settled(client):
     """
     Listen until the fingers hold the object at rest.
@@ -81,6 +89,15 @@ def rotation(quaternion):
     x, y, z, w = quaternion
     K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + 2.0 * w * K + 2.0 * K @ K
+
+
+def newest_sample(client):
+    """Return the MeasuredGrasp of the newest stamp that all fingers are heard of, or None."""
+    heard = client.heard
+    for stamp in sorted(heard.poses, reverse=True):
+        if len(heard.wrenches.get(stamp, ())) == len(client.fingers):
+            return _sample(client, stamp)
+    return None
 
 
 def _samples(client):

@@ -22,8 +22,10 @@ import numpy as np
 SPHERE_RADIUS = 0.003        # [m]
 SPHERE_MASS = 0.0005         # small beside the object's, which has to show that it slips [kg]
 TIMESTEP = 0.0005            # [s]
-EXACT = (300, 1e-10, 3e4)    # noslip iterations, their tolerance, impratio: to measure with
-FAST = (50, 1e-6, 1e3)       # the same, for real time
+# noslip iterations, their tolerance, impratio
+FAST = (50, 1e-6, 1e3)       # in real time
+FREE = (200, 1e-10, 1e3)     # to measure with; stiffer friction shakes light free spheres
+GUIDED = (300, 1e-10, 3e4)   # to measure with; softer friction creeps below its limit
 LARGEST_FORCE = 100.0        # of a motor [N]
 AXES = 'xyz'
 
@@ -52,7 +54,7 @@ def build_point_hand(grasp_object: GraspObject, grasp: Grasp, guided: bool = Fal
 
     """
     spec = mujoco.MjSpec()
-    set_options(spec, TIMESTEP, *(FAST if real_time else EXACT))
+    set_options(spec, TIMESTEP, *(FAST if real_time else GUIDED if guided else FREE))
     if not real_time:
         spec.option.gravity = [0.0, 0.0, 0.0]
     add_object(spec, grasp_object)

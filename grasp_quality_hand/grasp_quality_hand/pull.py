@@ -1,6 +1,12 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""A pull on a held object: a wrench that grows from nothing until the object slips."""
+"""
+A pull on a held object: a wrench that grows from nothing until the object slips.
+
+Then it goes back to nothing in RELEASE_TIME: a load that was gone at once would leave the object
+to forces that nothing balances, until the hand has seen it.
+
+"""
 
 from dataclasses import dataclass
 from typing import Optional
@@ -10,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+RELEASE_TIME = 0.5           # [s]
 
 
 @dataclass(frozen=True)
@@ -63,11 +70,12 @@ class Pull:
     @property
     def load(self) -> Array:
         """Return what acts on the object now, shape (6,), object frame [N, N m]."""
-        return self.factor * self._wrench if self.result is None else np.zeros(6)
+        return self.factor * self._wrench
 
     def advance(self, duration: float, pose: Pose) -> None:
         """Let the load grow for a duration [s], or end the pull, by the object's pose now."""
         if self.result is not None:
+            self.factor = max(0.0, self.factor - duration / RELEASE_TIME * self.result.held)
             return
         slip = slip_distance(self._begin.displacement_to(pose))
         if slip > self._slip_limit or self.factor >= self._limit:

@@ -82,7 +82,8 @@ class SimulatedHandNode(Node):
         grasp_object = load(*map(self._get, ('object', 'object_mass', 'object_friction')))
         self._simulation = HandSimulation(
             grasp_object, self._get('squeeze_force'), hand=self._get('hand'),
-            command_timeout=self._get('command_timeout'))
+            command_timeout=self._get('command_timeout'),
+            joint_damping=self._get('joint_damping'))
         self._simulated_until = time.monotonic()
 
     def _on_close(self, request, response):

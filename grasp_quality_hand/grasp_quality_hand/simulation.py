@@ -6,7 +6,7 @@ from grasp_quality_hand.contact_reading import contact_points, finger_contacts
 from grasp_quality_hand.effort_input import COMMAND_TIMEOUT, EffortInput
 from grasp_quality_hand.grasp_controller import GraspController
 from grasp_quality_hand.grasp_objects import load
-from grasp_quality_hand.hand_model import build_hand_model
+from grasp_quality_hand.hand_model import build_hand_model, DAMPING
 from grasp_quality_hand.point_controller import object_grasp, PointController
 from grasp_quality_hand.point_hand_model import build_point_hand
 from grasp_quality_hand.pull import Pull
@@ -33,11 +33,13 @@ class HandSimulation:
     """
 
     def __init__(self, grasp_object='cube', squeeze_force=SQUEEZE_FORCE, dclaw=None,
-                 command_timeout=COMMAND_TIMEOUT, hand=DCLAW):
+                 command_timeout=COMMAND_TIMEOUT, hand=DCLAW, joint_damping=DAMPING):
         self.object = load(grasp_object) if isinstance(grasp_object, str) else grasp_object
         if hand == DCLAW:
             self.hand = build_hand_model(self.object, dclaw)
-            self.controller = GraspController(self.hand, self.object, squeeze_force)
+            self.hand.mujoco.dof_damping[self.hand.joint_dof] = joint_damping
+            self.controller = GraspController(self.hand, self.object, squeeze_force,
+                                              max(DAMPING - joint_damping, 0.0))
         else:
             self.hand = build_point_hand(self.object, object_grasp(self.object, squeeze_force),
                                          real_time=True)

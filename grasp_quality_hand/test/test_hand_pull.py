@@ -47,7 +47,12 @@ def test_pull_grows_until_the_object_slips_and_then_lets_go():
     assert np.allclose(pull.load, 2.0 * wrench) and pull.result is None
     pull.advance(0.01, pose([2e-3, 0, 0], Rotation.identity()))
     assert pull.result.slipped and pull.result.held == pytest.approx(2.0)
-    assert pull.result.slip == pytest.approx(2e-3) and not pull.load.any()
+    assert pull.result.slip == pytest.approx(2e-3)
+    for _ in range(60):
+        before = pull.factor
+        pull.advance(0.01, still)
+        assert pull.factor <= before
+    assert not pull.load.any() and pull.result.held == pytest.approx(2.0)
 
 
 def test_pull_ends_at_its_limit():
