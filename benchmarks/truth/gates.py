@@ -34,7 +34,8 @@ def all_gates(results: Results) -> List[Gate]:
 
 def errors(ratios: Sequence[float]) -> 'np.ndarray':
     """Return how far ratios are from 1; what has no value is infinitely far."""
-    return np.nan_to_num(np.abs(np.array(ratios, dtype=np.float64) - 1.0), nan=np.inf, posinf=np.inf)
+    off = np.abs(np.array(ratios, dtype=np.float64) - 1.0)
+    return np.nan_to_num(off, nan=np.inf, posinf=np.inf)
 
 
 def _share(ratios: Sequence[float], limit: float) -> float:

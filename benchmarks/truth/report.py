@@ -43,8 +43,8 @@ def ratio_table(results: Results) -> str:
 
 def _row(name: str, ratios: Sequence[float]) -> List[Any]:
     """Return one row of the table of ratios."""
-    values = np.array(ratios, dtype=np.float64)
-    quantiles = np.quantile(np.nan_to_num(values, nan=np.inf, posinf=np.inf), [0.0, 0.05, 0.5, 0.95, 1.0],
+    values = np.nan_to_num(np.array(ratios, dtype=np.float64), nan=np.inf, posinf=np.inf)
+    quantiles = np.quantile(values, [0.0, 0.05, 0.5, 0.95, 1.0],
                             method='nearest') if len(values) else [np.nan] * 5
     return [name, len(values), *map(_number, quantiles),
             f'{(errors(values) <= CLOSE).mean():.1%}' if len(values) else '']

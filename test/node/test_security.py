@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Security that is asked for and may not be in force keeps the node from being active."""
 
+from pathlib import Path
+from xml.etree import ElementTree
+
+from ament_index_python.packages import get_package_share_directory
 from grasp_quality.node_security import unsecured_reason
 from grasp_quality_msgs import srv
 from grasp_quality_msgs.msg import ResultCode
@@ -71,3 +75,40 @@ def test_a_middleware_without_security_ends_with_one_line(tmp_path):
         ENABLE: 'true', STRATEGY: 'Enforce', 'ROS_SECURITY_KEYSTORE': str(enclave.parent)})
     assert process.wait() == 1
     assert 'grasp_quality_node: ' in process.log() and 'Traceback' not in process.log()
+
+
+POLICIES = Path(get_package_share_directory('grasp_quality'), 'config', 'security')
+
+
+def granted(role, kind, verb):
+    """Return what a policy grants on the node, without the node's name or a last wildcard."""
+    items = ElementTree.parse(POLICIES / f'{role}.policy.xml').iterfind(f'.//{kind}s[@{verb}]/*')
+    names = [item.text.replace('~/', '/grasp_quality/', 1) for item in items]
+    return {name.removeprefix('/grasp_quality').removesuffix('/*') for name in names
+            if name.startswith('/grasp_quality/')}
+
+
+def test_the_policy_of_the_node_grants_all_that_it_has_and_no_more(start):
+    node = start(contact_source='pose_array', contact_names='[left]').client
+    array = start(contact_source='contact_array').client
+
+    def names(client, method):
+        found = {name.removeprefix(client.target) for name, _ in getattr(client.node, method)(
+            'grasp_quality', client.target.removesuffix('/grasp_quality'))
+            if name.startswith(f'{client.target}/')}
+        return {name.removesuffix('/left') for name in found}
+
+    methods = {('topic', 'publish'): 'get_publisher_names_and_types_by_node',
+               ('topic', 'subscribe'): 'get_subscriber_names_and_types_by_node',
+               ('service', 'reply'): 'get_service_names_and_types_by_node'}
+    for (kind, verb), method in methods.items():
+        wanted = granted('node', kind, verb)
+        node.until(lambda: names(node, method) | names(array, method) == wanted,
+                   f'{sorted(wanted)}, there are {sorted(names(node, method))}')
+
+
+@pytest.mark.parametrize('role', ['sensor', 'planner', 'controller', 'operator'])
+def test_every_role_is_granted_only_what_the_node_has(role):
+    assert granted(role, 'topic', 'publish') <= granted('node', 'topic', 'subscribe')
+    assert granted(role, 'topic', 'subscribe') <= granted('node', 'topic', 'publish')
+    assert granted(role, 'service', 'request') <= granted('node', 'service', 'reply')
