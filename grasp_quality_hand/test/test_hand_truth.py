@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 SEED = 1
-CASES = (0, 3, 5)            # a cube with PCWF and a force, balls with SFCE, and PCWF with a torque
+CASES = (0, 3, 5)  # a cube with PCWF and a force, balls with SFCE, and PCWF with a torque
 
 
 @pytest.fixture(scope='module')
@@ -23,7 +23,8 @@ def results():
     """Return a few pulls on both hands."""
     way = directions(7)[2:3]
     return Results([point_result(index, SEED) for index in CASES],
-                   {f'{name}, PCWF': dclaw_results(name, 'PCWF', way) for name in ('ball', 'cube')})
+                   {f'{name}, PCWF': dclaw_results(name, 'PCWF', way)
+                    for name in ('ball', 'cube')})
 
 
 def test_a_grasp_holds_alpha_and_no_more(results):

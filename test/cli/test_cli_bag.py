@@ -129,7 +129,8 @@ def test_the_rich_contacts_are_read(tmp_path, replay):
     with BagWriter(tmp_path / 'bag') as bag:
         bag.write(f'{NODE}/contacts', START_NS, TYPES['grasp_quality_msgs/msg/ContactArray'](
             header(START_NS), [TYPES['grasp_quality_msgs/msg/Contact'](
-                name, name, pose, 2, 0.25, 0.0, 4.0) for name, pose in zip(('a', 'b'), poses)], []))
+                name, name, pose, 2, 0.25, 0.0, 4.0)
+             for name, pose in zip(('a', 'b'), poses)], []))
     _, _, answers, forces = replay(tmp_path / 'bag', '--task', '0 0 1 0 0 0')
     assert answers[0]['alpha'] == pytest.approx(2 * 0.25 * 4.0, rel=SOLVER)
     assert [row['contact'] for row in forces] == ['a', 'b']
