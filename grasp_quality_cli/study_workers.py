@@ -62,7 +62,8 @@ def dask_workers(scheduler: str) -> Iterator[tuple[Executor, int]]:
     except ImportError as exc:
         raise StudyError('--scheduler needs Dask: pip install distributed') from exc
     # its loss is told below, once and without tracebacks
-    logging.getLogger('distributed.client').setLevel(logging.CRITICAL)
+    for name in ('distributed.client', 'tornado.application'):
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         client: Any = Client(  # type: ignore[no-untyped-call]
             scheduler, timeout=CONNECT_S, set_as_default=False)

@@ -43,6 +43,8 @@ def held_interval(grasp: Grasp, normals: Array, wrench: Array,
     for objective in (cvxpy.Minimize(factor), cvxpy.Maximize(factor)):
         problem = cvxpy.Problem(objective, constraints)
         problem.solve(solver=cvxpy.CLARABEL)
+        if problem.status not in (cvxpy.OPTIMAL, cvxpy.INFEASIBLE):
+            raise RuntimeError(f'the reference was not solved: {problem.status}')
         ends.append(float(factor.value) if problem.status == cvxpy.OPTIMAL else np.nan)
     return ends[0], ends[1]
 

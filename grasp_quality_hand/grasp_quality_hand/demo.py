@@ -46,12 +46,12 @@ def main(args=None):
     output = Path(options.output)
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    children, claim = [], None
+    claim = None
     try:
         output.mkdir(parents=True, exist_ok=True)
         claim = claim_domain()
         os.environ.setdefault('ROS_LOG_DIR', str((output / 'log').resolve()))
-        _run(options, output, children)
+        _run(options, output, [])
         code = 0
     except KeyboardInterrupt:
         print('demo: stopped', flush=True)
@@ -62,7 +62,7 @@ def main(args=None):
     finally:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
-        for child in reversed(children):
+        for child in reversed(ChildProcess.started):
             child.end()
         if claim is not None:
             claim.close()

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Child processes of the demo, and a ROS domain of their own for them."""
 
+from contextlib import contextmanager
 import os
 from pathlib import Path
 import random
@@ -62,16 +63,40 @@ def executable(package, name):
     return path
 
 
+@contextmanager
+def signals_held():
+    """Let SIGINT and SIGTERM wait until the end of the block."""
+    received = []
+    before = {number: signal.signal(number, lambda number, _: received.append(number))
+              for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        if received:
+            signal.raise_signal(received[0])
+
+
 class ChildProcess:
-    """A child in a session of its own, with a log file, ended by its id."""
+    """
+    A child in a session of its own, with a log file, ended by its id.
+
+    ``started`` holds all children of this process: a signal may come before anybody else knows of
+    one.
+
+    """
+
+    started = []
 
     def __init__(self, name, command, log):
         self.name = name
         self._log = Path(log)
-        with open(self._log, 'wb') as output:
+        with open(self._log, 'wb') as output, signals_held():
             self._process = subprocess.Popen(
                 [str(part) for part in command], stdin=subprocess.DEVNULL, stdout=output,
                 stderr=subprocess.STDOUT, start_new_session=True)
+            self.started.append(self)
 
     def check(self):
         """Raise DemoFailure when the process has ended."""

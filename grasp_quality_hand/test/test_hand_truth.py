@@ -59,7 +59,8 @@ def test_less_freedom_of_the_forces_holds_less(index):
     normals = holding_forces(case.grasp, case.task).idle[:, 2]
     lowest, largest = held_interval(case.grasp, normals, case.task)
     assert lowest < 0.0 < largest < alpha
-    assert held_interval(case.grasp, normals, case.task, four_edges=True)[1] < largest
+    held = held_interval(case.grasp, normals, case.task, four_edges=True)[1]
+    assert held < largest or np.isnan(held)  # nan: such cones do not even balance the normals
     assert held_interval(case.grasp, normals, 2.0 * case.task)[1] == pytest.approx(
         largest / 2.0, rel=1e-4)
     assert four_edged_alpha(case.grasp, case.task) < alpha
