@@ -54,7 +54,7 @@ def _picture(hand: Any, data: Any, grasp_object: GraspObject, record: PullRecord
     figure = Figure(figsize=SIZE, dpi=DPI)
     canvas = FigureCanvasAgg(figure)
     frame = record.frames[index]
-    scene = figure.add_axes((-0.06, 0.0, 0.62, 0.94), projection='3d')
+    scene = figure.add_axes((-0.05, 0.07, 0.6, 0.86), projection='3d')
     draw_parts(scene, _scene(hand, data, grasp_object, record, frame))
     frame_axes(scene, np.array([0.0, 0.0, grasp_object.height]), 0.062)
     scene.tick_params(labelsize=7)
