@@ -9,6 +9,7 @@ the two along m_n), as before cones could be handled exactly.
 """
 
 from typing import Any, Tuple
+import warnings
 
 import cvxpy
 from grasp_quality import Grasp
@@ -41,11 +42,8 @@ def held_interval(grasp: Grasp, normals: Array, wrench: Array,
                    _norms(sides, four_edges) <= normals + ROUNDING * normals.max()]
     ends = []
     for objective in (cvxpy.Minimize(factor), cvxpy.Maximize(factor)):
-        problem = cvxpy.Problem(objective, constraints)
-        problem.solve(solver=cvxpy.CLARABEL)
-        if problem.status not in (cvxpy.OPTIMAL, cvxpy.INFEASIBLE):
-            raise RuntimeError(f'the reference was not solved: {problem.status}')
-        ends.append(float(factor.value) if problem.status == cvxpy.OPTIMAL else np.nan)
+        solved = _solve(cvxpy.Problem(objective, constraints))
+        ends.append(float(factor.value) if solved else np.nan)
     return ends[0], ends[1]
 
 
@@ -58,6 +56,17 @@ def four_edged_alpha(grasp: Grasp, wrench: Array) -> float:
         _norms(sides, True) <= normals, normals <= grasp.max_normal_forces])
     problem.solve(solver=cvxpy.CLARABEL)
     return float(factor.value)
+
+
+def _solve(problem: Any) -> bool:
+    """Solve in full, by one solver or another; return whether there is a solution at all."""
+    for solver in (cvxpy.CLARABEL, cvxpy.ECOS):
+        with warnings.catch_warnings():  # that it may be inaccurate is what the status says
+            warnings.simplefilter('ignore', UserWarning)
+            problem.solve(solver=solver)
+        if problem.status in (cvxpy.OPTIMAL, cvxpy.INFEASIBLE):
+            return bool(problem.status == cvxpy.OPTIMAL)
+    raise RuntimeError(f'the reference was not solved: {problem.status}')
 
 
 def _balance(grasp: Grasp, normals: Any, sides: Any, wrench: Any) -> Any:
