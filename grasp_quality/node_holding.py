@@ -8,6 +8,8 @@ an object wants ``~/holding_forces`` instead. They are computed while somebody l
 answer has been published, and are empty whenever they do not exist.
 """
 
+import time
+
 from grasp_quality.exceptions import GraspQualityError
 from grasp_quality.margin_forces import hold_forces
 
@@ -50,10 +52,14 @@ class HoldingForces:
         start = self._last
         if start is not None and start.grasp.names != grasp.names:
             start = None
+        deadline = time.monotonic() + time_left_s
         try:
             held = hold_forces(grasp, load, start=start, time_limit_s=time_left_s)
         except GraspQualityError as exc:
             self._tell(str(exc))
+            return None
+        if time.monotonic() > deadline:  # the search for the margin looks at no clock
+            self._tell('the contacts became stale while they were computed')
             return None
         if not held.feasible:
             self._tell('no forces inside cones, bound and joint limits hold the external wrench')

@@ -57,7 +57,7 @@ class LiveLoop:
             self._fail(exc, scene)
         if scene is not None:
             self._monitor.note_margin(measured_margin(scene))
-            self._margin.show(scene)
+            self._margin.show(scene, self._inputs.age_s)
 
     def forget(self):
         """Begin anew, as after a deactivation: the next forces owe nothing to the last."""
@@ -84,7 +84,7 @@ class LiveLoop:
         started = time.perf_counter()
         task, load = self._task_and_load(scene)
         # the watchdog cannot bark during a solve, which must end before the contacts are stale
-        limit = min(settings.solver_time_limit, settings.max_contact_age)
+        limit = min(settings.solver_time_limit, settings.max_contact_age - self._inputs.age_s())
         solution = evaluate(scene.grasp, task, load, settings.barrier_weight, limit,
                             settings.alpha_reserve, self._follower.start)
         solution, wrench = governing(task, solution)

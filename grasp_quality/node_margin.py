@@ -22,13 +22,14 @@ class MarginTopic:
         self._publisher = publisher
         self._settings = settings
 
-    def show(self, scene):
-        """Publish how close the measured forces of a scene are to their limits."""
+    def show(self, scene, age_s):
+        """Publish how close measured forces are to their limits; age_s() is that of contacts."""
         if not self._publisher.get_subscription_count():
             return
         header = Header(stamp=scene.stamp, frame_id=scene.frame)
         try:
-            message = self._message(header, scene)
+            message = self._message(header, scene, age_s)
+            age_s()  # raises when the contacts became stale meanwhile
         except Exception as exc:
             message = GraspMargin(header=header, result=error_result(exc))
         self._publisher.publish(message)
@@ -38,13 +39,13 @@ class MarginTopic:
         if self._publisher.get_subscription_count():
             self._publisher.publish(GraspMargin(header=header, result=result))
 
-    def _message(self, header, scene):
+    def _message(self, header, scene, age_s):
         missing = [name for name, force in zip(scene.grasp.names, scene.forces) if force is None]
         if missing:
             raise StaleContactsError(
                 f'no fresh measured wrench of {missing}: publish them on '
                 '~/contact_wrenches/<name> with every sample of contacts')
         settings = self._settings()
-        limit = min(settings.solver_time_limit, settings.max_contact_age)
+        limit = min(settings.solver_time_limit, settings.max_contact_age - age_s())
         found = measured_margin(scene.grasp, scene.forces, settings.wanted_margin, limit)
         return margin_message(header, scene.grasp, found)

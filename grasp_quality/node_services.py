@@ -68,12 +68,11 @@ class Services:
         async def answer(request, response):
             started = time.perf_counter()
             try:
-                if not self._is_active():
-                    raise NotActiveError('the node is not active: configure and activate it, as '
-                                         'with ros2 lifecycle set')
+                self._check_active()
                 answering = handler(request, response)
                 if answering is not None:
                     await answering
+                    self._check_active()  # it may have been deactivated meanwhile
             except Exception as exc:
                 response = type(response)(result=error_result(exc))
                 self._logger.warning(
@@ -81,6 +80,11 @@ class Services:
             response.solve_time = to_duration(time.perf_counter() - started)
             return response
         return answer
+
+    def _check_active(self):
+        if not self._is_active():
+            raise NotActiveError('the node is not active: configure and activate it, as with '
+                                 'ros2 lifecycle set')
 
     def _question(self, request):
         """Grasp, header of the answer, transform of the request's wrenches, load."""

@@ -94,9 +94,11 @@ def contacts_from_array(message, defaults, transform=None):
     """
     items = [(f'contacts[{i}]', item) for i, item in enumerate(message.contacts)]
     names = [item.name or f'contact_{i}' for i, (_, item) in enumerate(items)]
-    for i, (field, _) in enumerate(items):
-        if names[i] in names[:i]:
-            raise InvalidMessageError(f'{field}.name must be unique, got {names[i]!r} twice')
+    seen = set()
+    for name, (field, _) in zip(names, items):
+        if name in seen:
+            raise InvalidMessageError(f'{field}.name must be unique, got {name!r} twice')
+        seen.add(name)
 
     def numbers(name, default):
         return [_number(item, name, default, field) for field, item in items]

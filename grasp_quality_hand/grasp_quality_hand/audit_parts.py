@@ -76,12 +76,19 @@ class Quality:
 
 @dataclass(frozen=True)
 class Forces:
-    """What a ContactForceArray says; age_s by stamp when it was sent, None if unknown."""
+    """
+    What a ContactForceArray says.
+
+    ``age_s`` by stamp when it was sent, None if unknown; ``are_holding`` when they are to balance
+    the load alone.
+
+    """
 
     stamp: int
     frame: str
     forces: Sequence[Force]
     age_s: float | None
+    are_holding: bool = False
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,8 @@ class EffortBridge:
     command : EffortCommand
     max_force_age, max_joint_age, max_pose_age : float
         [s]
+    object_frame : str
+        Frame that the poses of the object are of.
     compensate_gravity : bool
         Whether the efforts carry the hand's own links.
 
@@ -78,13 +80,14 @@ class EffortBridge:
 
     def __init__(self, hand: HandKinematics, links: Mapping[str, str], command: EffortCommand,
                  max_force_age: float, max_joint_age: float, max_pose_age: float,
-                 compensate_gravity: bool = True) -> None:
+                 object_frame: str, compensate_gravity: bool = True) -> None:
         for link in links.values():
             hand.check_link(link)
         self._hand, self._links, self._command = hand, dict(links), command
         self.forces: Newest[FramedPushes] = Newest('contact forces', max_force_age)
         self.joints: Newest[Joints] = Newest('joint states', max_joint_age)
         self.poses: Newest[ObjectPose] = Newest('poses of the object', max_pose_age)
+        self._object_frame = object_frame
         self._gravity = compensate_gravity
         self._last_s: Optional[float] = None
         self.ending = ''  # why nothing shall be followed any more
@@ -144,6 +147,10 @@ class EffortBridge:
             raise Unusable(f'contacts {strangers} have no link: name them in contact_names and '
                            'contact_links; without them the others are out of balance')
         if framed.frame != self._hand.base_frame:
+            if framed.frame != self._object_frame:
+                raise Unusable(f'the contact forces stand in {framed.frame!r}, which is neither '
+                               f'base_frame {self._hand.base_frame!r} nor object_frame '
+                               f'{self._object_frame!r}')
             pose = self.poses.fresh(now)
             if pose.frame != self._hand.base_frame:
                 raise Unusable(f'the pose of the object stands in {pose.frame!r}, and not in the '

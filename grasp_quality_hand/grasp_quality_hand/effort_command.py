@@ -40,7 +40,8 @@ class Holding:
     efforts : (n,) array or None
         [N m, N]; None: those of the good forces before, averaged over ``AVERAGING_S``.
     stiffness, damping : float
-        Of the posture at which the hold began, while joint states are fresh [N m/rad, N m s/rad].
+        Of the posture at which the hold began [N m/rad, N m s/rad]. When joint states become
+        stale the last spring stays, so that the grip does not jump, and the damping ends.
 
     """
 
@@ -70,6 +71,7 @@ class EffortCommand:
         self._average: Optional[Array] = None
         self._ramp_from = np.zeros(len(limits))
         self._posture: Optional[Array] = None
+        self._spring = np.zeros(len(limits))
         self._share = 0.0
         self.phase = Phase.WAITING
 
@@ -116,6 +118,7 @@ class EffortCommand:
             weight = 1.0 - float(np.exp(-max(period, 0.0) / AVERAGING_S))
             self._average = self._average + weight * (self._efforts - self._average)
         self.phase, self._posture = Phase.FOLLOWING, None
+        self._spring = np.zeros(len(self._limits))
         return self._efforts.copy()
 
     def hold(self, period: float, positions: Optional[Array] = None,
@@ -146,12 +149,13 @@ class EffortCommand:
         if self._share == 1.0:
             self.phase = Phase.HOLDING
         goal = self._average if self._holding.efforts is None else self._holding.efforts
-        if positions is not None and self._posture is not None:
-            with np.errstate(over='ignore', invalid='ignore'):  # _within judges what comes out
-                goal = goal + self._holding.stiffness * (self._posture - positions)
+        with np.errstate(over='ignore', invalid='ignore'):  # _within judges what comes out
+            if positions is not None and self._posture is not None:
+                spring = self._holding.stiffness * (self._posture - positions)
+                self._spring = spring if np.isfinite(spring).all() else self._spring
                 if rates is not None:
                     goal = goal - self._holding.damping * rates
-        goal = self._within(goal, self._efforts)
+            goal = self._within(goal + self._spring, self._efforts)
         self._efforts = self._ramp_from + self._share * (goal - self._ramp_from)
         return self._efforts.copy()
 

@@ -25,6 +25,7 @@ from grasp_quality_msgs.msg import ContactArray, ContactForceArray, GraspQuality
 from rcl_interfaces.msg import ParameterDescriptor
 from rcl_interfaces.srv import GetParameters
 import rclpy
+from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
@@ -56,6 +57,7 @@ class ForceAuditNode(Node):
                             'are sent [s]', read_only=True)).value)
         self._recent: list[str] = []
         self._asked: Any = None
+        self._holding = False
         self._wrench_topics: set[str] = set()
         self._parameter_client = self.create_client(GetParameters, f'{self.target}/get_parameters')
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
@@ -66,8 +68,9 @@ class ForceAuditNode(Node):
                 (ContactForceArray, 'contact_forces', OUTPUT, self._read_forces),
                 (Float64, 'alpha', OUTPUT, audit_messages.read_alpha)):
             self._listen(kind, topic, profile, read)
-        self.create_timer(JUDGE_PERIOD_S, self._judge)
-        self.create_timer(REPORT_PERIOD_S, self._report)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(JUDGE_PERIOD_S, self._judge, clock=steady)
+        self.create_timer(REPORT_PERIOD_S, self._report, clock=steady)
 
     def _listen(self, kind: Any, topic: str, profile: QoSProfile,
                 read: Callable[[Any, int], object]) -> None:
@@ -90,8 +93,15 @@ class ForceAuditNode(Node):
             forces = dataclasses.replace(forces, age_s=None)
         return forces
 
+    def _read_holding(self, message: ContactForceArray, sent_ns: int) -> Forces:
+        return dataclasses.replace(self._read_forces(message, sent_ns), are_holding=True)
+
     def _judge(self) -> None:
         self._ask()
+        # the node works them out for listeners only: listen where somebody else does
+        if not self._holding and self.count_subscribers(f'{self.target}/holding_forces'):
+            self._holding = True
+            self._listen(ContactForceArray, 'holding_forces', OUTPUT, self._read_holding)
         for text in self.records.judge(time.monotonic()):
             self._tell(text)
 
@@ -124,7 +134,8 @@ class ForceAuditNode(Node):
     def _report(self) -> None:
         violated = bool(self.records.count.violations)
         status = DiagnosticStatus(
-            level=DiagnosticStatus.ERROR if violated else DiagnosticStatus.OK,
+            level=DiagnosticStatus.ERROR if violated else (
+                DiagnosticStatus.WARN if self.records.count.unjudged else DiagnosticStatus.OK),
             name=f'{self.get_name()}: {self.target}', message=self.summary(),
             hardware_id=self.target,
             values=[KeyValue(key=f'violation {i}', value=t) for i, t in enumerate(self._recent)])

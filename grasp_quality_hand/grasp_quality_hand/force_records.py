@@ -79,9 +79,11 @@ class ForceRecords:
             if not part.optimal and any(numbers):
                 return [f'quality is not OPTIMAL and yet holds {numbers}']
         elif isinstance(part, float):
-            known = [quality.alpha for quality in self._parts(Quality) if quality.optimal]
-            if part != 0.0 and known and part not in known:
-                return [f'alpha {part:.9g} stands in no OPTIMAL quality']
+            if part in (0.0, *(q.alpha for q in self._parts(Quality) if q.optimal)):
+                return []
+            if not any(since_s <= arrived_s for since_s, _ in self._kept.get(Quality, ())):
+                return self._leave('quality')  # not listening to it yet
+            return [f'alpha {part:.9g} stands in no OPTIMAL quality']
         elif isinstance(part, Forces):
             return self._judge_forces(arrived_s, part) if part.forces else []
         elif isinstance(part, LocalWrench) and part.wrench.any():
@@ -104,6 +106,10 @@ class ForceRecords:
         qualities = list({
             q.content: q for q in self._parts(Quality) if q.stamp == part.stamp}.values())
         in_frame = [c for c in contacts if c.frame in ('', part.frame)]
+        if not all(np.isfinite(force.wrench).all() for force in part.forces):
+            return [f'forces of stamp {part.stamp} are not finite']
+        if qualities and not any(quality.optimal for quality in qualities):
+            return [f'forces of stamp {part.stamp}: the quality beside them is not OPTIMAL']
         for name, found in (('parameters', settings), ('contacts', contacts),
                             ('quality', qualities), ('transform', in_frame)):
             if not found:
@@ -126,11 +132,13 @@ class ForceRecords:
         return []
 
     def _judge_local(self, arrived_s: float, part: LocalWrench) -> list[str]:
-        sets = [forces for forces in self._parts(Forces) if forces.stamp == part.stamp]
+        sets = [forces for forces in self._parts(Forces)
+                if forces.stamp == part.stamp and not forces.are_holding]
         contacts = [c for c in self._parts(Contacts) if c.stamp == part.stamp]
         settings = self._settings(arrived_s)
-        if not sets or not contacts or not settings:
-            return []
+        for name, found in (('forces', sets), ('contacts', contacts), ('parameters', settings)):
+            if not found:
+                return self._leave(name)
         for forces, received, own in itertools.product(sets, contacts, settings):
             limits = limits_of(received, own)
             for force in forces.forces:
@@ -154,4 +162,5 @@ def _wrong(part: Forces, contacts: Contacts, quality: Quality, settings: Setting
     said += broken_forces(part.forces, limits, settings.force_bound)
     if said:
         return said
-    return broken_balance(part.forces, limits, quality.alpha * quality.task - quality.load)
+    alpha = 0.0 if part.are_holding else quality.alpha
+    return broken_balance(part.forces, limits, alpha * quality.task - quality.load)

@@ -30,6 +30,7 @@ from msg_adapters.stamps import stamp_ns
 import numpy as np
 from numpy.typing import NDArray
 import rclpy
+from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -63,8 +64,9 @@ class ForceToEffort(Node):
                      newest_command())
         self._listen(JointState, 'joint_states', self._on_joints, newest_sample())
         self._listen(PoseStamped, 'object_pose', self._on_pose, newest_sample())
-        self.create_timer(1.0 / values['rate'], self._guarded(self._on_tick))
-        self.create_timer(REPORT_PERIOD_S, self._guarded(self._tell))
+        steady = Clock(clock_type=ClockType.STEADY_TIME)  # a clock set back must not stop it
+        self.create_timer(1.0 / values['rate'], self._guarded(self._on_tick), clock=steady)
+        self.create_timer(REPORT_PERIOD_S, self._guarded(self._tell), clock=steady)
 
     def _listen(self, kind: Any, topic: str, callback: Callable[[Any], None], qos: Any) -> None:
         self.create_subscription(kind, topic, self._guarded(callback), qos)
@@ -90,10 +92,14 @@ class ForceToEffort(Node):
                                     self._now())
             return
         pushes = Pushes(names, points, wrenches[:, :3], wrenches[:, 3:])
-        self._bridge.forces.put(FramedPushes(message.header.frame_id, pushes),
-                                stamp_ns(message.header.stamp), self._now())
+        # a failure may bear the sender's clock instead of a sensor's: it is never late
+        stamp = stamp_ns(message.header.stamp) if names else 0
+        self._bridge.forces.put(
+            FramedPushes(message.header.frame_id, pushes), stamp, self._now())
 
     def _on_joints(self, message: JointState) -> None:
+        if set(message.name).isdisjoint(self._hand.movable):
+            return  # of an arm on the same topic
         self._bridge.joints.put(Joints(*read_joint_state(message)),
                                 stamp_ns(message.header.stamp), self._now())
 
@@ -153,6 +159,14 @@ class ForceToEffort(Node):
         """Follow nothing any more: go to the holding efforts."""
         self._bridge.ending = 'the node is ending'
 
+    def spin_once(self, executor: SingleThreadedExecutor) -> None:
+        """Run what is ready; what rclpy itself raises must not end the commands."""
+        try:
+            executor.spin_once(timeout_sec=0.1)
+        except Exception as error:
+            self.get_logger().error(
+                f'the executor raised {type(error).__name__}: {error}', throttle_duration_sec=1.0)
+
     def flush(self) -> None:
         """See the last command delivered: destroying a publisher drops what is under way."""
         self._publisher.wait_for_all_acked(Duration(seconds=FLUSH_S))
@@ -181,12 +195,12 @@ def main(args: Optional[list[str]] = None) -> int:
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     while not stopping:
-        executor.spin_once(timeout_sec=0.1)
+        node.spin_once(executor)
     node.end()
     deadline = time.monotonic() + node.ramp_time + ENDING_EXTRA_S
     while time.monotonic() < deadline and (
             node.report is None or node.report.phase in (Phase.FOLLOWING, Phase.RAMPING)):
-        executor.spin_once(timeout_sec=0.1)
+        node.spin_once(executor)
     node.flush()
     executor.shutdown()
     node.destroy_node()

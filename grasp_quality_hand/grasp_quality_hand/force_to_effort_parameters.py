@@ -20,6 +20,7 @@ TABLE: dict[str, tuple[Any, str, tuple[float, float] | None]] = {
     'robot_description_file': ('', 'File of the URDF, where robot_description is empty', None),
     'base_frame': ('', "Link that forces or poses of the object are given in; empty: the URDF's "
                    'root', None),
+    'object_frame': ('object', 'Frame of the object, whose poses come on object_pose', None),
     'joints': (Parameter.Type.STRING_ARRAY, "Joints in the order of the controller's joints",
                None),
     'contact_names': (Parameter.Type.STRING_ARRAY, 'Contacts that may have forces', None),
@@ -87,7 +88,7 @@ def make_bridge(values: dict[str, Any]) -> tuple[EffortBridge, HandKinematics]:
         values['ramp_time'], efforts, values['holding_stiffness'], values['holding_damping']))
     return EffortBridge(
         hand, dict(zip(names, links)), command, values['max_force_age'], values['max_joint_age'],
-        values['max_pose_age'], values['gravity_compensation']), hand
+        values['max_pose_age'], values['object_frame'], values['gravity_compensation']), hand
 
 
 def _urdf(values: dict[str, Any]) -> str:

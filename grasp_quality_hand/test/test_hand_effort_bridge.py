@@ -36,7 +36,8 @@ class Rig:
         command = EffortCommand(
             hand.effort_limits, max_rate, Holding(**{'ramp_time': 0.2, **holding}))
         self.bridge = EffortBridge(
-            hand, {'left': 'left_finger', 'right': 'right_finger'}, command, 0.1, 0.1, 0.1)
+            hand, {'left': 'left_finger', 'right': 'right_finger'}, command, 0.1, 0.1, 0.1,
+            'object')
         self.now = Now(10 ** 9, 1.0)
         self.report = None
         self.tick()  # the first has no time before it
@@ -72,6 +73,14 @@ def test_forces_in_the_object_frame_go_through_its_pose(rig):
     rig.feed()
     assert rig.tick() == pytest.approx([0.3, -0.3], abs=EXACT)
     assert (rig.report.phase, rig.report.reason, rig.report.scale) == (Phase.FOLLOWING, '', 1.0)
+
+
+def test_forces_in_a_third_frame_are_not_taken_for_those_of_the_object(rig):
+    rig.feed()
+    rig.tick()
+    rig.forces(frame='camera')
+    rig.tick()
+    assert rig.report.phase is Phase.RAMPING and "'camera'" in rig.report.reason
 
 
 def test_forces_in_the_base_frame_need_no_pose(rig):

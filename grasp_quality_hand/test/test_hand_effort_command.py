@@ -95,14 +95,14 @@ def test_a_hold_takes_the_mean_of_what_was_followed():
     assert out == pytest.approx([0.4, 0.0], abs=0.01)
 
 
-def test_a_hold_keeps_the_posture_while_it_is_seen():
+def test_a_hold_keeps_the_posture_and_when_blind_the_last_spring():
     commanded = command(max_rate=1e6, stiffness=2.0, damping=0.5)
     commanded.follow(np.zeros(2), PERIOD)
     for _ in range(41):
         commanded.hold(PERIOD, np.array([1.0, 1.0]), np.zeros(2))
     assert commanded.hold(PERIOD, np.array([0.9, 1.1]), np.array([0.2, 0.0])) == pytest.approx(
         [2.0 * 0.1 - 0.5 * 0.2, -0.2], abs=EXACT)
-    assert commanded.hold(PERIOD) == pytest.approx([0.0, 0.0], abs=EXACT)
+    assert commanded.hold(PERIOD) == pytest.approx([2.0 * 0.1, -0.2], abs=EXACT)
 
 
 def test_good_forces_end_a_hold_without_a_jump():
@@ -114,3 +114,12 @@ def test_good_forces_end_a_hold_without_a_jump():
     assert commanded.follow(np.array([0.5, 0.5]), PERIOD) == pytest.approx([0.05, 0.05], abs=EXACT)
     assert commanded.phase is Phase.FOLLOWING
     assert commanded.hold(PERIOD) == pytest.approx([0.05 * 0.975] * 2, abs=EXACT)
+
+
+def test_joint_states_that_become_stale_in_a_hold_change_nothing_at_once():
+    commanded = command(ramp_time=0.0, stiffness=2.0, efforts=np.array([0.3, 0.3]))
+    commanded.follow(np.zeros(2), PERIOD)
+    commanded.hold(PERIOD, np.zeros(2), np.zeros(2))
+    seen = commanded.hold(PERIOD, np.array([-0.2, 0.1]), np.zeros(2))
+    assert seen == pytest.approx([0.7, 0.1], abs=EXACT)
+    assert commanded.hold(PERIOD) == pytest.approx(seen, abs=EXACT)

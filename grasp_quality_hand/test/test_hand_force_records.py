@@ -38,7 +38,7 @@ def test_nothing_is_judged_before_its_grace_is_over():
 @pytest.mark.parametrize('missing', [SETTINGS, CONTACTS, QUALITY])
 def test_what_lacks_a_part_is_counted_and_not_judged(missing):
     said, count = judged(*[part for part in ALL if part is not missing])
-    assert said == [] and count.judged == 0 and sum(count.unjudged.values()) == 1
+    assert said == [] and count.judged == 0 and count.unjudged
 
 
 @pytest.mark.parametrize('part, words', [
@@ -62,6 +62,27 @@ def test_a_false_part_is_a_violation(part, words):
 def test_an_alpha_of_no_quality_is_a_violation():
     said, _ = judged(*ALL, 4.0)
     assert said == ['alpha 4 stands in no OPTIMAL quality']
+
+
+def test_an_alpha_beside_nothing_but_failures_is_a_violation():
+    failed = changed(QUALITY, optimal=False, alpha=0.0, others=(0.0,))
+    said, _ = judged(SETTINGS, CONTACTS, failed, 3.0)
+    assert said == ['alpha 3 stands in no OPTIMAL quality']
+
+
+def test_forces_beside_a_failure_are_a_violation_without_their_contacts_too():
+    failed = changed(QUALITY, optimal=False, alpha=0.0, others=(0.0,))
+    said, _ = judged(SETTINGS, failed, FORCES)
+    assert len(said) == 1 and 'not OPTIMAL' in said[0]
+
+
+def test_holding_forces_balance_the_load_alone():
+    """FORCES lift 6 N: three tasks and 3 N of load, or 6 N of load and no task."""
+    holding = changed(FORCES, are_holding=True)
+    said, _ = judged(SETTINGS, CONTACTS, changed(QUALITY, load=2.0 * QUALITY.load), holding)
+    assert said == []
+    said, _ = judged(SETTINGS, CONTACTS, QUALITY, holding)
+    assert len(said) == 1 and 'are missing' in said[0]
 
 
 def test_a_stamp_evaluated_twice_passes_with_either_quality():
