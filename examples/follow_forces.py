@@ -13,10 +13,12 @@ old, and so does a sensor that stops: one rule for all.
 
 """
 
+import signal
+
 from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode
 import rclpy
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 from rclpy.time import Time
 
 
@@ -56,8 +58,11 @@ class FollowForces(Node):
         self._told = mode
 
 
-rclpy.init()
-try:
-    rclpy.spin(FollowForces())
-except (KeyboardInterrupt, ExternalShutdownException):
-    pass
+stopping = []
+for number in (signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, lambda *_: stopping.append(True))
+# rclpy's own handlers would end the context in the middle of a message
+rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+node = FollowForces()
+while not stopping:
+    rclpy.spin_once(node, timeout_sec=0.1)
