@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The processes of the closed loop, and a node that watches it from outside."""
 
+from collections.abc import Callable
 from pathlib import Path
 import time
-from typing import Any, Callable
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseArray, PoseStamped

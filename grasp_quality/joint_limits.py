@@ -9,9 +9,9 @@ tau = J^T f + tau_g = T x + tau_g (docs/derivations.md), and every motor obeys
 Jacobians and tau_g from gravity on its links; both hold for one posture of the hand.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Sequence
 
 from grasp_quality.arrays import checked, frozen
 from grasp_quality.exceptions import InvalidGraspError

@@ -654,7 +654,7 @@ def take(lane, block, task, load_, reach, least_cap, weights, groups, same, G, c
     state[BALANCED, lane] = max(math.sqrt(square), SMALL_CAP * least_cap)
     largest = 0.0
     gap = 0.5
-    for g in range(0, group.shape[0], GROUP):
+    for _ in range(0, group.shape[0], GROUP):
         gap += 0.5
     for i in range(k):
         row = i * CONTACT

@@ -74,8 +74,8 @@ def uniqueness(problem: ConicProblem, limit: TimeLimit | None = None) -> Uniquen
     tangent: list[Array] = []   # columns that the multipliers are fixed by
     strict = True
     for block in problem.layout.blocks:
-        block = block[block >= 0]
-        strict &= _sort(problem.E[:, block], u[block], z[block], free, tangent)
+        columns = block[block >= 0]
+        strict &= _sort(problem.E[:, columns], u[columns], z[columns], free, tangent)
     rows = np.abs(problem.E).max(axis=1) > 0.0
     forces = _smallest(np.column_stack(free)[rows])
     multipliers = _smallest(np.column_stack(tangent)[rows].T) if tangent else 0.0

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 import enum
+from itertools import pairwise
 
 from grasp_quality import judge
 from grasp_quality.arrays import checked_number, frozen
@@ -169,7 +170,7 @@ def _pattern_of(grasps: GraspSet) -> NDArray[np.int64]:
         starts = grasps.starts.tolist()
         pattern = np.array([
             numbers.setdefault(grasps.groups[begin:end].tobytes(), len(numbers))
-            for begin, end in zip(starts[:-1], starts[1:])])
+            for begin, end in pairwise(starts)])
     return np.where(grasps.is_l2, -1, pattern)
 
 

@@ -7,8 +7,8 @@ Where alpha is smooth both sides are the derivative that the multipliers give. A
 differences of alpha itself, of second order, over steps that are small against the grasp.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 from grasp_quality.contact import ContactModel
 from grasp_quality.contact_set import ContactSet

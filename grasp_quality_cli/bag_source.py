@@ -22,7 +22,7 @@ from grasp_quality_cli.sqlite_scan import missing_bytes, SqliteScan
 from rosbags.rosbag2 import Reader
 from ruamel.yaml import YAML
 
-SCANS: dict[str, type[McapScan] | type[SqliteScan]] = {'.mcap': McapScan, '.db3': SqliteScan}
+SCANS: dict[str, type[McapScan | SqliteScan]] = {'.mcap': McapScan, '.db3': SqliteScan}
 
 
 class NoBagError(GraspQualityError, ValueError):

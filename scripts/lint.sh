@@ -2,7 +2,7 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 
-# The ament linters, the licence headers and the length of the files.
+# The ament linters, ruff (ruff.toml), the licence headers and the length of the files.
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 code=0
@@ -14,6 +14,8 @@ done
 
 ament_flake8 setup.py "${folders[@]}" || code=1
 ament_pep257 setup.py "${folders[@]}" 2> >(grep -v '^checking ' >&2) || code=1
+
+ruff check --quiet . || code=1
 
 mapfile -t sources < <(find setup.py env.sh Makefile .ci "${folders[@]}" -type f \
     \( -name '*.py' -o -name '*.sh' -o -name '*.msg' -o -name '*.srv' -o -name 'CMakeLists.txt' \

@@ -7,7 +7,8 @@ What fingers apply at any moment, slipping or not, is at most alpha (of that ver
 contacts where they are now) times the largest of their normal forces over its cap.
 """
 
-from typing import Any, Sequence
+from collections.abc import Sequence
+from typing import Any
 
 from benchmarks.truth.felt import felt_contact
 from grasp_quality import evaluate, Grasp, TaskWrench

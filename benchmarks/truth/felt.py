@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The grasp as it is felt: contacts where the simulation has them, in frames of little change."""
 
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any, Iterable
+from typing import Any
 
 from grasp_quality import Contact, Grasp
 import numpy as np

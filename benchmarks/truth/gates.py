@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The bounds that the measurements must keep; they were fixed before the first run."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Iterator, List, Sequence
 
 from benchmarks.truth.trials import Results
 import numpy as np
@@ -27,7 +27,7 @@ class Gate:
     kept: bool
 
 
-def all_gates(results: Results) -> List[Gate]:
+def all_gates(results: Results) -> list[Gate]:
     """Return all gates, kept or not."""
     return [*_points(results), *_controls(results), *_law(results), *_dclaw(results)]
 

@@ -8,8 +8,9 @@ Passive: every contact presses with a constant normal force, and friction does t
 nothing in the commands knows where the end is.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Callable, Optional
+from typing import Any
 
 from benchmarks.truth.bound_law import bound_ratio
 from benchmarks.truth.cases import Case
@@ -121,7 +122,7 @@ def optimised_pull(case: Case) -> Pulled:
     return _pull(rig, forces.at, forces.alpha, case.task)
 
 
-def passive_pull(case: Case) -> Optional[PassivePull]:
+def passive_pull(case: Case) -> PassivePull | None:
     """
     Pull on contacts that press with constant normal forces, while friction does the rest.
 
@@ -147,7 +148,7 @@ def _at_the_optimum(case: Case) -> PassivePull:
     return PassivePull(pulled, best.forces[:, 2], True)
 
 
-def _balanced(case: Case, alpha: float) -> Optional[PassivePull]:
+def _balanced(case: Case, alpha: float) -> PassivePull | None:
     """Pull with normal forces that balance each other; alpha is that of the optimum."""
     forces = holding_forces(case.grasp, case.task).idle
     if not held_interval(case.grasp, forces[:, 2], case.task)[1] > LEAST * alpha:

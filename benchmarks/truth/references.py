@@ -8,7 +8,7 @@ every cone is replaced by the pyramid of its four edges along t1 and t2 (and, of
 the two along m_n), as before cones could be handled exactly.
 """
 
-from typing import Any, Tuple
+from typing import Any
 import warnings
 
 import cvxpy
@@ -21,7 +21,7 @@ ROUNDING = 1e-7              # by which normal forces may miss balance, as a sha
 
 
 def held_interval(grasp: Grasp, normals: Array, wrench: Array,
-                  four_edges: bool = False) -> Tuple[float, float]:
+                  four_edges: bool = False) -> tuple[float, float]:
     """
     Return the smallest and the largest factor on a wrench that friction holds; nan for none.
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tables of docs/truth.md."""
 
-from typing import Any, Iterator, List, Sequence, Tuple
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from benchmarks.document import machine, table
 from benchmarks.truth.gates import CLOSE, errors, Gate
@@ -41,7 +42,7 @@ def ratio_table(results: Results) -> str:
                       'largest', 'within 2 %'], rows))
 
 
-def _row(name: str, ratios: Sequence[float]) -> List[Any]:
+def _row(name: str, ratios: Sequence[float]) -> list[Any]:
     """Return one row of the table of ratios."""
     values = np.nan_to_num(np.array(ratios, dtype=np.float64), nan=np.inf, posinf=np.inf)
     quantiles = np.quantile(values, [0.0, 0.05, 0.5, 0.95, 1.0],
@@ -65,7 +66,7 @@ def worst_table(results: Results, count: int = 5) -> str:
                       for _, text, way, pull in rows[:count]]))
 
 
-def _pulls(point: PointResult) -> Iterator[Tuple[str, Pulled]]:
+def _pulls(point: PointResult) -> Iterator[tuple[str, Pulled]]:
     """Yield the pulls of one case."""
     yield 'optimised forces', point.optimised
     if point.passive is not None:

@@ -3,8 +3,8 @@
 """A load that grows so slowly that inertia hides nothing, until the object slips."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 from grasp_quality import Grasp
 from grasp_quality_hand.slip import Pose, slip_distance

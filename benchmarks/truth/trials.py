@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import multiprocessing
 import os
 import sys
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any
 
 from benchmarks.truth.cases import random_case
 from benchmarks.truth.dclaw_trials import dclaw_pull, DClawRig, directions
@@ -49,20 +49,20 @@ class PointResult:
     text: str
     too_sensitive: int
     optimised: Pulled
-    passive: Optional[PassivePull]
-    wrong: Tuple[float, float]
-    four_edges: Tuple[float, float]
+    passive: PassivePull | None
+    wrong: tuple[float, float]
+    four_edges: tuple[float, float]
 
 
 @dataclass
 class Results:
     """Everything that was measured; D'Claw's pulls by object and contact model."""
 
-    points: List[PointResult] = field(default_factory=list)
-    dclaw: Dict[str, List[Pulled]] = field(default_factory=dict)
+    points: list[PointResult] = field(default_factory=list)
+    dclaw: dict[str, list[Pulled]] = field(default_factory=dict)
 
     @property
-    def passive(self) -> List[PassivePull]:
+    def passive(self) -> list[PassivePull]:
         """Return the pulls with constant normal forces."""
         return [point.passive for point in self.points if point.passive is not None]
 
@@ -100,13 +100,13 @@ def _with_friction(grasp: Grasp, factor: float) -> Grasp:
                   for contact in grasp.contacts], grasp.bound)
 
 
-def dclaw_results(name: str, model: str, ways: Array) -> List[Pulled]:
+def dclaw_results(name: str, model: str, ways: Array) -> list[Pulled]:
     """Pull on an object in D'Claw along unit vectors (n, 3)."""
     rig = DClawRig(name, ContactModel[model])
     return [dclaw_pull(rig, way) for way in ways]
 
 
-def run(cases: int, seed: int, ways: Dict[Tuple[str, str], int]) -> Results:
+def run(cases: int, seed: int, ways: dict[tuple[str, str], int]) -> Results:
     """
     Run everything on all cores.
 
@@ -123,7 +123,7 @@ def run(cases: int, seed: int, ways: Dict[Tuple[str, str], int]) -> Results:
     results = Results(dclaw={f'{name}, {model}': [] for name, model in ways})
     context = multiprocessing.get_context('spawn')
     with ProcessPoolExecutor(os.cpu_count(), mp_context=context) as pool:
-        jobs: Dict[Any, str] = {}
+        jobs: dict[Any, str] = {}
         for (name, model), count in ways.items():
             for chunk in np.array_split(directions(count), min(CHUNKS, count)):
                 jobs[pool.submit(dclaw_results, name, model, chunk)] = f'{name}, {model}'

@@ -3,7 +3,7 @@
 """A channel that loses and delays what goes through it, as a busy network does."""
 
 from collections import deque
-from typing import Callable, Deque, Tuple
+from collections.abc import Callable
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class Channel:
         """
         self._drop_rate, self.delay = drop_rate, delay
         self._rng = np.random.default_rng(seed)
-        self._waiting: Deque[Tuple[float, Callable[[], None]]] = deque()
+        self._waiting: deque[tuple[float, Callable[[], None]]] = deque()
 
     def send(self, action: Callable[[], None], now: float) -> None:
         """Take an action at the time now [s]; it is run at once when there is no delay."""

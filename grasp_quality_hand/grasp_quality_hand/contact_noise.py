@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measurement noise on contacts."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, List, Sequence
+from typing import Any
 
 from grasp_quality_hand.contact_reading import rotation_with_z
 import numpy as np
@@ -29,7 +30,7 @@ class ContactNoise:
     normal: float = 0.0
     force: float = 0.0
 
-    def measure(self, contacts: Sequence[Any], rng: np.random.Generator) -> List[Any]:
+    def measure(self, contacts: Sequence[Any], rng: np.random.Generator) -> list[Any]:
         """Return MeasuredContacts with noise."""
         if not (self.position or self.normal or self.force):
             return list(contacts)

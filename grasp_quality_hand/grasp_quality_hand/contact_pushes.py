@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Contact forces and the motor efforts that exert them: tau = J^T f, saturation, joint limits."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Sequence, Tuple
 
 from grasp_quality import Grasp, JointLimits
 from grasp_quality_hand.hand_kinematics import HandKinematics
@@ -29,7 +29,7 @@ class Pushes:
 
     """
 
-    names: Tuple[str, ...]
+    names: tuple[str, ...]
     positions: Array
     forces: Array
     moments: Array
@@ -66,7 +66,7 @@ def contact_efforts(hand: HandKinematics, links: Sequence[str], pushes: Pushes) 
     return efforts
 
 
-def saturated(efforts: Array, offset: Array, limits: Array) -> Tuple[Array, float]:
+def saturated(efforts: Array, offset: Array, limits: Array) -> tuple[Array, float]:
     """
     Bring efforts within limits by scaling all contact forces alike.
 

@@ -9,7 +9,7 @@ of alpha, with a feedback on the object's pose; `force_to_effort` makes joint ef
 """
 
 import time
-from typing import Any, Optional
+from typing import Any
 
 from geometry_msgs.msg import Point, PoseArray, Vector3
 from grasp_quality import Contact, ContactModel, Grasp
@@ -37,8 +37,8 @@ class Follower:
 
     def __init__(self, client: Any, publisher: Any) -> None:
         self._client, self._publisher = client, publisher
-        self._forces: Optional[HoldingForces] = None
-        self._commanded: Optional[Array] = None      # (k, 3) along the object's axes [N]
+        self._forces: HoldingForces | None = None
+        self._commanded: Array | None = None      # (k, 3) along the object's axes [N]
         self.displacement = np.zeros(6)              # of the object from its place, world axes
         client.on_contacts.append(self._on_contacts)
 
@@ -97,7 +97,6 @@ class Follower:
             np.concatenate([R.T @ self._velocity[:3], R.T @ self._velocity[3:]]))
         self._blend = min(1.0, self._blend + self._blending)
         wanted = np.einsum('kij,kj->ki', self._grasp.rotations, local[:, :3])
-        assert self._commanded is not None
         self._commanded = (1.0 - self._blend) * self._before + self._blend * wanted
         moments = self._blend * local[:, 3, None] * self._grasp.rotations[:, :, 2]
         self._publisher.publish(ContactForceArray(header=message.header, forces=[

@@ -5,7 +5,7 @@
 from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
-from typing import Any, List
+from typing import Any
 
 from grasp_quality_hand.demo_follower import Follower
 from grasp_quality_hand.demo_processes import ChildProcess, DemoFailure, executable
@@ -50,7 +50,7 @@ class PullRecord:
     direction: Array
     alpha: float
     held: float = 0.0
-    frames: List['Frame'] = field(default_factory=list)
+    frames: list['Frame'] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -64,8 +64,8 @@ class Frame:
     measured: MeasuredGrasp
 
 
-def show_pulls(client: Any, children: List[ChildProcess], grasp_object: GraspObject, cap: float,
-               hand: str, output: Path) -> List[PullRecord]:
+def show_pulls(client: Any, children: list[ChildProcess], grasp_object: GraspObject, cap: float,
+               hand: str, output: Path) -> list[PullRecord]:
     """
     Hold the object with optimised forces, pull on it until it slips, and print the loads.
 
@@ -103,7 +103,7 @@ def show_pulls(client: Any, children: List[ChildProcess], grasp_object: GraspObj
     return records
 
 
-def _bridge_command(client: Any, hand: str) -> List[Any]:
+def _bridge_command(client: Any, hand: str) -> list[Any]:
     """Return the command of force_to_effort for D'Claw."""
     def listed(names: Any) -> str:
         return f'[{", ".join(names)}]'
@@ -157,7 +157,7 @@ def _pull(client: Any, follower: Follower, grasp_object: GraspObject, cap: float
     return record
 
 
-def _table(name: str, records: List[PullRecord]) -> List[str]:
+def _table(name: str, records: list[PullRecord]) -> list[str]:
     """Return what was predicted and what was held, as lines."""
     return ['', f'Pulls on the {name}, held with optimised forces, until it slips by 0.5 mm',
             '  pull          predicted alpha    held load    held / predicted',

@@ -8,8 +8,8 @@ this needs is missing, stale or wrong, holds. What is needed: forces that are no
 angles, and, for forces in the object frame, where the object is.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Dict, Mapping, Optional
 
 from grasp_quality_hand.contact_pushes import contact_efforts, Pushes, saturated
 from grasp_quality_hand.effort_command import EffortCommand, Phase
@@ -89,15 +89,15 @@ class EffortBridge:
         self.poses: Newest[ObjectPose] = Newest('poses of the object', max_pose_age)
         self._object_frame = object_frame
         self._gravity = compensate_gravity
-        self._last_s: Optional[float] = None
+        self._last_s: float | None = None
         self.ending = ''  # why nothing shall be followed any more
 
-    def ages(self, now: Now) -> Dict[str, float]:
+    def ages(self, now: Now) -> dict[str, float]:
         """Ages of the newest inputs [s]."""
         return {'forces': self.forces.age(now), 'joint states': self.joints.age(now),
                 'object pose': self.poses.age(now)}
 
-    def tick(self, now: Now) -> tuple[Optional[Array], Report]:
+    def tick(self, now: Now) -> tuple[Array | None, Report]:
         """
         Work out the efforts of this instant.
 
@@ -120,7 +120,7 @@ class EffortBridge:
         efforts = self._command.follow(wanted, min(period, LONGEST_STEP_S))
         return efforts, Report(self._command.phase, '', scale, False)
 
-    def _hold(self, reason: str, period: float, now: Now) -> tuple[Optional[Array], Report]:
+    def _hold(self, reason: str, period: float, now: Now) -> tuple[Array | None, Report]:
         positions = rates = None
         try:
             joints = self.joints.fresh(now)
@@ -168,7 +168,7 @@ class EffortBridge:
             raise Unusable('the forces are too large to compute with')
         return wanted, scale
 
-    def _of_motors(self, values: Mapping[str, float]) -> Optional[Array]:
+    def _of_motors(self, values: Mapping[str, float]) -> Array | None:
         if not all(name in values for name in self._hand.joints):
             return None
         return np.array([values[name] for name in self._hand.joints])

@@ -10,7 +10,6 @@ a command, finite and within the limits, whatever comes in.
 
 from dataclasses import dataclass
 import enum
-from typing import Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +45,7 @@ class Holding:
     """
 
     ramp_time: float
-    efforts: Optional[Array] = None
+    efforts: Array | None = None
     stiffness: float = 0.0
     damping: float = 0.0
 
@@ -67,10 +66,10 @@ class EffortCommand:
 
     def __init__(self, limits: Array, max_rate: float, holding: Holding) -> None:
         self._limits, self._max_rate, self._holding = limits, max_rate, holding
-        self._efforts: Optional[Array] = None
-        self._average: Optional[Array] = None
+        self._efforts: Array | None = None
+        self._average: Array | None = None
         self._ramp_from = np.zeros(len(limits))
-        self._posture: Optional[Array] = None
+        self._posture: Array | None = None
         self._spring = np.zeros(len(limits))
         self._share = 0.0
         self.phase = Phase.WAITING
@@ -121,8 +120,8 @@ class EffortCommand:
         self._spring = np.zeros(len(self._limits))
         return self._efforts.copy()
 
-    def hold(self, period: float, positions: Optional[Array] = None,
-             rates: Optional[Array] = None) -> Optional[Array]:
+    def hold(self, period: float, positions: Array | None = None,
+             rates: Array | None = None) -> Array | None:
         """
         Go to the holding efforts, within the ramp time, and stay there.
 

@@ -8,7 +8,7 @@ torques go over in HANDOVER_TIME, so that neither end of a stream jerks. All tim
 
 """
 
-from typing import Optional, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,7 @@ class EffortInput:
     def __init__(self, joint_names: Sequence[str], timeout: float = COMMAND_TIMEOUT) -> None:
         self._joint_names = tuple(joint_names)
         self._timeout = timeout
-        self._command: Optional[Vector] = None
+        self._command: Vector | None = None
         self._arrived = -np.inf
         self._share = 0.0
 

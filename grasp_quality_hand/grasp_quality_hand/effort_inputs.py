@@ -9,7 +9,7 @@ back stops nothing for longer than the age limit.
 """
 
 from dataclasses import dataclass
-from typing import Generic, Optional, TypeVar
+from typing import Generic, TypeVar
 
 T = TypeVar('T')
 
@@ -41,7 +41,7 @@ class Newest(Generic[T]):
 
     def __init__(self, what: str, max_age: float) -> None:
         self._what, self._max_age = what, max_age
-        self._value: Optional[T] = None
+        self._value: T | None = None
         self._stamp_ns, self._arrival_s = 0, 0.0
         self.dropped = 0
 

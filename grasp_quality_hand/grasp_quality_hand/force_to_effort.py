@@ -8,10 +8,11 @@ at its own rate and never stops once it has begun: without good forces it goes t
 and on SIGINT or SIGTERM it gets there before it ends.
 """
 
+from collections.abc import Callable
 import signal
 import sys
 import time
-from typing import Any, Callable, Optional
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PoseStamped
@@ -52,7 +53,7 @@ class ForceToEffort(Node):
         values = declare(self)
         self._bridge, self._hand = make_bridge(values)
         self.ramp_time = float(values['ramp_time'])
-        self.report: Optional[Report] = None
+        self.report: Report | None = None
         self._told = ('', 0.0)
         self._commands = 0
         self._largest_share = 0.0
@@ -180,7 +181,7 @@ def _level(report: Report) -> bytes:
     return bytes(DiagnosticStatus.WARN)
 
 
-def main(args: Optional[list[str]] = None) -> int:
+def main(args: list[str] | None = None) -> int:
     """Run the node until a signal comes and the hand holds; return the exit code."""
     stopping: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):

@@ -3,7 +3,6 @@
 """The objects that the simulated hand can hold, and where its fingertips touch them."""
 
 from dataclasses import dataclass, replace
-from typing import Tuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +46,7 @@ class GraspObject:
 
     name: str
     shape: str
-    size: Tuple[float, ...]
+    size: tuple[float, ...]
     mass: float
     height: float
     contact_points: NDArray[np.float64]

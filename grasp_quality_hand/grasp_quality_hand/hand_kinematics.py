@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The hand's kinematics from its URDF, by Pinocchio: Jacobians of contact points, and gravity."""
 
-from typing import Any, Dict, Sequence, Tuple
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,7 +44,7 @@ class HandKinematics:
             raise BadHand(f'robot_description is no URDF that can be read: {error}') from None
         model.gravity.linear = np.array(gravity, dtype=np.float64)
         self._model, self._data = model, model.createData()
-        self.movable: Tuple[str, ...] = tuple(model.names)[1:]
+        self.movable: tuple[str, ...] = tuple(model.names)[1:]
         missing = [name for name in joints if name not in self.movable]
         if missing or not joints or len(set(joints)) < len(joints):
             raise BadHand(f'joints must name movable joints of the URDF, each once, got '
@@ -52,7 +53,7 @@ class HandKinematics:
                 if model.joints[model.getJointId(name)].nv != 1]
         if wide:
             raise BadHand(f'only joints of one degree of freedom are known, {wide} have more')
-        self.joints: Tuple[str, ...] = tuple(joints)
+        self.joints: tuple[str, ...] = tuple(joints)
         self._columns = [self._index(name).idx_v for name in joints]
         self.base_frame = base_frame or str(model.frames[1].name)
         self._base = self._frame(self.base_frame)
@@ -63,7 +64,7 @@ class HandKinematics:
             raise BadHand(f'joints {without} have no effort limit in the URDF: give each a '
                           '<limit effort="..."/> above 0')
         self.effort_limits: Array = limits
-        self._frames: Dict[str, int] = {}
+        self._frames: dict[str, int] = {}
 
     def _index(self, joint: str) -> Any:
         return self._model.joints[self._model.getJointId(joint)]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of the simulated hand."""
 
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import Any, NamedTuple
 
 from grasp_quality_hand.effort_input import COMMAND_TIMEOUT
 from grasp_quality_hand.grasp_objects import OBJECTS
@@ -16,14 +16,14 @@ FROM_NEXT_LOAD = ', from the next load_object on'
 class _Parameter(NamedTuple):
     """One parameter: default, description, range of a number, choices of a name."""
 
-    default: Union[float, int, str]
+    default: float | int | str
     description: str
-    limits: Optional[Tuple[float, float]] = None
-    choices: Tuple[str, ...] = ()
+    limits: tuple[float, float] | None = None
+    choices: tuple[str, ...] = ()
     read_only: bool = False
 
 
-PARAMETERS: Dict[str, _Parameter] = {
+PARAMETERS: dict[str, _Parameter] = {
     'hand': _Parameter(DCLAW, "D'Claw, or three ideal contact points", None, (DCLAW, POINTS),
                        True),
     'target_node': _Parameter('grasp_quality', 'node whose input topics get the contacts',
@@ -80,7 +80,7 @@ def _check(name: str, value: Any) -> None:
                          f'{", ".join(PARAMETERS[name].choices)}')
 
 
-def _refuse_unknown(parameters: List[Any]) -> SetParametersResult:
+def _refuse_unknown(parameters: list[Any]) -> SetParametersResult:
     """Refuse a value that is not among the choices."""
     try:
         for parameter in parameters:

@@ -9,7 +9,7 @@ Elliptic cones, a high impratio and the noslip solver make loads at slip agree w
 """
 
 from dataclasses import dataclass
-from typing import Any, Tuple
+from typing import Any
 
 from grasp_quality_hand.grasp_objects import GraspObject
 import mujoco
@@ -55,7 +55,7 @@ class HandModel:
     """
 
     mujoco: Any
-    joint_names: Tuple[str, ...]
+    joint_names: tuple[str, ...]
     joint_qpos: NDArray[np.int_]
     joint_dof: NDArray[np.int_]
     effort_limits: NDArray[np.float64]
@@ -133,7 +133,7 @@ def add_object(spec: Spec, grasp_object: GraspObject) -> None:
     holder.active = True
 
 
-def index_of(model: Any, joint_names: Tuple[str, ...], effort_limits: NDArray[np.float64],
+def index_of(model: Any, joint_names: tuple[str, ...], effort_limits: NDArray[np.float64],
              finger_of_geom: NDArray[np.int_], tip_bodies: NDArray[np.int_],
              tip_geoms: NDArray[np.int_]) -> HandModel:
     """Return the HandModel around a compiled model, with what its builder knows."""

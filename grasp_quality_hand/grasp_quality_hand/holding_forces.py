@@ -11,7 +11,6 @@ caps too, and balances its share of the load (cones and bounds are convex).
 """
 
 from dataclasses import dataclass
-from typing import Optional
 
 from grasp_quality import evaluate, Grasp, TaskWrench
 import numpy as np
@@ -49,7 +48,7 @@ class HoldingForces:
 
 
 def holding_forces(grasp: Grasp, task_wrench: ArrayLike,
-                   external_wrench: Optional[ArrayLike] = None) -> HoldingForces:
+                   external_wrench: ArrayLike | None = None) -> HoldingForces:
     """
     Return the forces for a task in every size that the grasp can apply.
 

@@ -10,7 +10,7 @@ first, or when ~/hold_here was called last.
 
 import signal
 import sys
-from typing import Any, Optional
+from typing import Any
 
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 from grasp_quality_hand.hand_kinematics import EARTH
@@ -51,7 +51,7 @@ class HoldingLoad(Node):
             'gravity', list(EARTH), ParameterDescriptor(
                 description='in the frame that the poses stand in [m/s^2]',
                 read_only=True)).value)
-        self._place: Optional[tuple[Array, Array]] = None
+        self._place: tuple[Array, Array] | None = None
         self._publisher = self.create_publisher(
             WrenchStamped, 'grasp_quality/external_wrench', newest_command())
         self.create_subscription(PoseStamped, 'object_pose', self._on_pose, newest_sample())
@@ -77,7 +77,7 @@ class HoldingLoad(Node):
         return response
 
 
-def main(args: Optional[list[str]] = None) -> int:
+def main(args: list[str] | None = None) -> int:
     """Run the node until SIGINT or SIGTERM; return the exit code."""
     stopping: list[int] = []
     for number in (signal.SIGINT, signal.SIGTERM):

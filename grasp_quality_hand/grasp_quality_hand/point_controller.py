@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The contact-point hand's own controller: it opens, closes, squeezes, and keeps the object."""
 
-from typing import Any, Optional
+from typing import Any
 
 from grasp_quality import Contact, ContactModel, Grasp
 from grasp_quality_hand.grasp_objects import GraspObject
@@ -46,8 +46,8 @@ class PointController:
         self._away = np.zeros((len(self._grasp), per_sphere))    # of each sphere's joints [m]
         self._away[:, :3] = -CLEARANCE * grasp_object.inward_normals
         self.q_open = self._away.ravel()
-        self._closed_at: Optional[float] = None
-        self._place: Optional[Pose] = None
+        self._closed_at: float | None = None
+        self._place: Pose | None = None
 
     def open_hand(self) -> None:
         """Go off the object."""

@@ -9,7 +9,6 @@ to forces that nothing balances, until the hand has seen it.
 """
 
 from dataclasses import dataclass
-from typing import Optional
 
 from grasp_quality_hand.slip import Pose, slip_distance
 import numpy as np
@@ -65,7 +64,7 @@ class Pull:
         self._wrench, self._growth, self._limit = wrench, growth, limit
         self._slip_limit, self._begin = slip_limit, pose
         self.factor = 0.0
-        self.result: Optional[PullResult] = None
+        self.result: PullResult | None = None
 
     @property
     def load(self) -> Array:

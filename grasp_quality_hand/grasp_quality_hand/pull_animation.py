@@ -3,7 +3,7 @@
 """The animation of a pull: forces at the contacts, and the load beside its prediction."""
 
 from pathlib import Path
-from typing import Any, List
+from typing import Any
 
 from grasp_quality_hand import shapes
 from grasp_quality_hand.demo_pull import Frame, PullRecord
@@ -67,7 +67,7 @@ def _picture(hand: Any, data: Any, grasp_object: GraspObject, record: PullRecord
 
 
 def _scene(hand: Any, data: Any, grasp_object: GraspObject, record: PullRecord,
-           frame: Frame) -> List[Any]:
+           frame: Frame) -> list[Any]:
     """Return fingertips, object, cones, contact forces and the load as coloured triangles."""
     angles = dict(zip(frame.joints.name, frame.joints.position))
     _, tips = hand_triangles(hand, data, [angles[name] for name in hand.joint_names])

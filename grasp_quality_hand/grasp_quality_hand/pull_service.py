@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The service that pulls on what a simulated hand holds; it answers when the pull has ended."""
 
-from typing import Any, Callable, Optional
+from collections.abc import Callable
+from typing import Any
 
 from grasp_quality_hand.hand_messages import set_wrench
 from grasp_quality_hand.pull import Pull
@@ -20,8 +21,8 @@ class PullService:
     def __init__(self, node: Any, simulation: Callable[[], Any]) -> None:
         """Create ~/pull on a node; `simulation` returns the simulation of now."""
         self._simulation = simulation
-        self._pull: Optional[Pull] = None
-        self._ended: Optional[Future] = None
+        self._pull: Pull | None = None
+        self._ended: Future | None = None
         # a group of its own: the simulation goes on while the answer waits
         node.create_service(PullObject, '~/pull', self._on_pull,
                             callback_group=MutuallyExclusiveCallbackGroup())

@@ -84,7 +84,7 @@ def coarse(mesh: trimesh.Trimesh, cell: float | None = None) -> trimesh.Trimesh:
     """
     cell = cell or float(mesh.extents.max()) * FINEST
     cells = np.floor(mesh.vertices / cell).astype(np.int64)
-    _, kept, cell_of = np.unique(cells, axis=0, return_index=True, return_inverse=True)
+    _, _, cell_of = np.unique(cells, axis=0, return_index=True, return_inverse=True)
     count = np.bincount(cell_of.ravel())
     vertices = np.column_stack([
         np.bincount(cell_of.ravel(), weights=mesh.vertices[:, axis]) / count for axis in range(3)])

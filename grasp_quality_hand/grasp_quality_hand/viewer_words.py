@@ -5,6 +5,7 @@
 from html import escape
 import math
 
+from grasp_quality import Grasp
 from grasp_quality_hand.viewer_picture import Array, Picture
 from grasp_quality_msgs.msg import GraspQuality, ResultCode
 from msg_adapters.colours import alpha_colours, MEASURED, OPTIMAL, TASK, usage_colours
@@ -61,20 +62,19 @@ def _banner(kind: str, colour: str, head: str, text: str, count: int) -> str:
 
 def table(picture: Picture) -> str:
     """Return the contacts as a table."""
-    if picture.grasp is None or picture.quality is None:
+    grasp, quality = picture.grasp, picture.quality
+    if grasp is None or quality is None:
         return '<div id="gq-table" style="margin:4px 12px;font-size:13px">no contacts</div>'
     head = ''.join(f'<th style="text-align:right;padding:2px 6px">{text}</th>' for text in (
         'optimal<br>normal [N]', 'cone used<br>[%]', 'measured<br>normal [N]',
         'slip margin<br>[%]'))
-    rows = ''.join(_row(picture, i) for i in range(len(picture.grasp)))
+    rows = ''.join(_row(picture, grasp, quality, i) for i in range(len(grasp)))
     return ('<table id="gq-table" style="margin:4px 8px;font-size:13px;border-collapse:collapse">'
             f'<tr><th style="text-align:left;padding:2px 6px">contact</th>{head}</tr>'
             f'{rows}</table>')
 
 
-def _row(picture: Picture, i: int) -> str:
-    grasp, quality = picture.grasp, picture.quality
-    assert grasp is not None and quality is not None  # for the type checker: table() looked
+def _row(picture: Picture, grasp: Grasp, quality: GraspQuality, i: int) -> str:
     normal, name = grasp.rotations[i][:, 2], grasp.names[i]
     usage = picture.usage[i]
     swatch = 'transparent' if math.isnan(usage) else css(usage_colours([usage])[0])

@@ -59,10 +59,10 @@ class Rig:
         self.status += [s for s in message.status if 'joint efforts' in s.name]
 
     def start(self, name, package, *arguments):
-        log = open(self.folder / f'{name}.txt', 'ab')
-        self.processes[name] = subprocess.Popen(
-            [str(executable(package, name)), '--ros-args', *arguments], start_new_session=True,
-            stdout=log, stderr=subprocess.STDOUT)
+        with open(self.folder / f'{name}.txt', 'ab') as log:
+            self.processes[name] = subprocess.Popen(
+                [str(executable(package, name)), '--ros-args', *arguments], stdout=log,
+                stderr=subprocess.STDOUT, start_new_session=True)
 
     def start_quality(self):
         self.start('grasp_quality_node', 'grasp_quality', '-p', 'contact_names:=[left, right]',

@@ -52,16 +52,16 @@ def test_jacobian_is_the_derivative_of_the_position(hand):
 
 
 def test_a_point_out_of_reach_is_named(hand):
+    targets = tip_positions(hand, at(hand, np.zeros(9)))
+    targets[1] += [0.0, 0.0, 0.5]
     with pytest.raises(OutOfReach, match='finger 2'):
-        targets = tip_positions(hand, at(hand, np.zeros(9)))
-        targets[1] += [0.0, 0.0, 0.5]
         inverse_kinematics(hand, targets)
 
 
 def test_quaternion_and_rotation_undo_each_other():
     random = np.random.default_rng(0)
-    for q in [*np.eye(4), *random.normal(size=(100, 4))]:
-        q = q / np.linalg.norm(q)
+    for direction in [*np.eye(4), *random.normal(size=(100, 4))]:
+        q = direction / np.linalg.norm(direction)
         R = rotation(q)
         assert np.allclose(R.T @ R, np.eye(3)) and np.isclose(np.linalg.det(R), 1.0)
         assert np.isclose(abs(quaternion(R) @ q), 1.0)

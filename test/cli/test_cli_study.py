@@ -44,12 +44,12 @@ def test_killed_again_and_again_it_loses_nothing_and_leaves_nobody_behind(datase
                               for w in workers), 'the workers to end')
         assert not output.exists()
         there = len(parts_of(output))
-    summary, said = finish(command(dataset, output, '--workers', '2'))
+    summary, _ = finish(command(dataset, output, '--workers', '2'))
     assert summary['rows_before'] >= 20 * (there - 1)
     assert summary['rows_now'] + summary['rows_before'] == summary['rows'] == COUNT
     assert (summary['scored'], summary['bad_rows']) == (COUNT - 3, 3)
     check_whole(output)
-    again, said = finish(command(dataset, output, '--workers', '2'))
+    again, _ = finish(command(dataset, output, '--workers', '2'))
     assert again['rows_now'] == 0 and again['seconds'] is None
 
 

@@ -55,7 +55,7 @@ def test_no_forces_beat_the_objective(bound):
     best = objective(solution.forces, solution.alpha)
     columns = np.concatenate([grasp.matrix.reshape(6, -1), -wrench[:, None]], axis=1)
     active = np.append((grasp.scales > 0.0).ravel(), True)
-    _, s, V = np.linalg.svd(columns[:, active])
+    _, _, V = np.linalg.svd(columns[:, active])
     for _ in range(300):
         change = np.zeros(len(active))
         change[active] = V[6:].T @ rng.normal(size=V.shape[0] - 6)

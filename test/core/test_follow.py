@@ -37,7 +37,7 @@ def test_every_step_is_admissible_and_no_longer_than_allowed(bound):
         problem, goal = answer(grasp, tasks[1], load)
         first = follow(problem, goal, forces, 1e-3).largest_change
         change = max(1.5 * first, 0.05)  # the first step leaves the other task at once
-        for step in range(200):
+        for _ in range(200):
             found = follow(problem, goal, forces, change)
             check_forces(grasp, found.solution.forces, found.solution.wrench, load)
             assert found.largest_change <= change * (1.0 + SOLVER)

@@ -202,7 +202,7 @@ def test_frictionless_virtual_contact_pushing_back_meets_alpha(seed):
 @each_seed
 @each_bound
 def test_force_closure_means_every_direction(problem, seed, bound):
-    grasp, wrench, _, rng = problem
+    grasp, _, _, rng = problem
     closure = force_closure(grasp)
     directions = np.vstack([np.eye(6), -np.eye(6), rng.normal(size=(6, 6))])
     alphas = np.array([alpha(grasp, d) for d in directions])
