@@ -4,21 +4,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from grasp_quality.ball import BallRadius as Answer, WIDTH
 from grasp_quality.solution import Status
 from grasp_quality.task import TaskEllipsoid
 from grasp_quality_msgs.srv import BallRadius
 from msg_adapters.errors import InvalidMessageError
+from msg_adapters.frames import Transform
 from msg_adapters.number_checks import checked_numbers
 from msg_adapters.results import status_result
 from msg_adapters.tasks import wrench_rows
 from msg_adapters.wrenches import to_wrench, wrench_array
 import numpy as np
-from numpy.typing import NDArray
 
-Transform = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 TORQUE_LENGTH = 1.0  # [m], when the request leaves it open
 ROWS = {BallRadius.Request.SUBSPACE_ALL: slice(0, 6),
         BallRadius.Request.SUBSPACE_FORCE: slice(0, 3),
@@ -50,7 +47,7 @@ def ellipsoid_from(request: BallRadius.Request, transform: Transform | None,
             f'subspace must be one of {sorted(ROWS)} (SUBSPACE_*), got {request.subspace}')
     length = length or TORQUE_LENGTH
     axes = np.diag([1.0, 1.0, 1.0, length, length, length])[ROWS[request.subspace]]
-    return TaskEllipsoid(axes if transform is None else [transform(axis) for axis in axes])
+    return TaskEllipsoid(axes if transform is None else [transform.wrench(axis) for axis in axes])
 
 
 def width_from(request: BallRadius.Request) -> float:

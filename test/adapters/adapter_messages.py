@@ -11,15 +11,24 @@ import numpy as np
 
 EXACT = 1e-12
 BAD_NUMBERS = (math.nan, math.inf, -math.inf, 1e300, -1.1e12)
-FACING_X = Quaternion(x=0.0, y=math.sqrt(0.5), z=0.0, w=math.sqrt(0.5))  # turns +z to +x
 any_float = strategies.floats(allow_nan=True, allow_infinity=True)
 sizes = strategies.floats(-10.0, 10.0)
 
 
-def pose(position=(0.0, 0.0, 0.0), orientation=FACING_X):
-    """Build a Pose."""
+def facing_x():
+    """Return a new Quaternion that turns +z to +x."""
+    return Quaternion(x=0.0, y=math.sqrt(0.5), z=0.0, w=math.sqrt(0.5))
+
+
+def pose(position=(0.0, 0.0, 0.0), orientation=None):
+    """Build a Pose, along +x unless turned otherwise; its parts are its own."""
     x, y, z = position
-    return Pose(position=Point(x=x, y=y, z=z), orientation=orientation)
+    return Pose(position=Point(x=x, y=y, z=z), orientation=orientation or facing_x())
+
+
+def xyz(message):
+    """Return the parts of a Point or Vector3."""
+    return [message.x, message.y, message.z]
 
 
 def wrench(fx=0.0, fy=0.0, fz=0.0, tx=0.0, ty=0.0, tz=0.0):

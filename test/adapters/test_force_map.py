@@ -23,12 +23,19 @@ def test_a_map_comes_back_as_it_was_sent():
 
 
 def test_no_map_is_empty():
-    assert alphas_of(force_map(Header())).shape == (0,)
+    nothing = force_map(Header(frame_id='object'))
+    assert (nothing.resolution, nothing.header.frame_id) == (0, 'object')
+    for resolution in (0, 3):
+        assert alphas_of(force_map(Header(), resolution)).shape == (0,)
 
 
-@pytest.mark.parametrize('resolution, alphas', [
-    (3, ALPHAS[:17]), (2, ALPHAS), (3, np.append(ALPHAS[:17], math.nan)),
-    (3, np.append(ALPHAS[:17], math.inf)), (3, np.append(ALPHAS[:17], -1.0))])
-def test_what_is_no_map_is_refused(resolution, alphas):
-    with pytest.raises(InvalidMessageError, match='alphas must'):
+@pytest.mark.parametrize('resolution, alphas, words', [
+    (3, ALPHAS[:17], r'be empty or hold 2 resolution\^2 = 18 numbers, got 17'),
+    (3, ALPHAS[:1], r'be empty or hold 2 resolution\^2 = 18 numbers, got 1'),
+    (2, ALPHAS, 'be empty or hold .* = 8 numbers, got 18'),
+    (3, np.append(ALPHAS[:17], math.nan), 'be finite and at least 0'),
+    (3, np.append(ALPHAS[:17], math.inf), 'be finite and at least 0'),
+    (3, np.append(ALPHAS[:17], -1e-9), 'be finite and at least 0')])
+def test_what_is_no_map_is_refused(resolution, alphas, words):
+    with pytest.raises(InvalidMessageError, match=f'^alphas must {words}$'):
         alphas_of(force_map(Header(), resolution, alphas))

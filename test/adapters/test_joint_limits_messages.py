@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joint limits of messages: the same torque whatever the frame, and what is refused."""
 
+from types import SimpleNamespace
+
 from adapter_messages import BAD_NUMBERS, EXACT, pose, shuffled_axes
 from geometry_msgs.msg import Twist, Vector3
 from grasp_quality_msgs.msg import Contact, ContactArray, JointLimit
@@ -57,10 +59,15 @@ def test_no_limits_are_none():
     assert read(array()) is None
 
 
+def test_messages_that_were_recorded_before_there_were_limits_have_none():
+    recorded = SimpleNamespace(contacts=array().contacts)
+    assert read(recorded) is None
+
+
 @pytest.mark.parametrize('bad, words', [
     (limit(twists=[twist()]), r'joint_limits\[0\]\.twists must hold one twist.*2 contacts, got 1'),
-    (limit(max_torque=0.0), r'joint_limits\[0\]\.max_torque must be at least'),
-    (limit(max_torque=-1.0), r'max_torque must be at least'),
+    (limit(max_torque=0.0), r'^joint_limits\[0\]\.max_torque must be at least 1e-12, got 0:'),
+    (limit(max_torque=-1.0), r'max_torque must be at least 1e-12, got -1: leave out a joint'),
     (limit(name=''), 'names must be words')])
 def test_what_is_refused(bad, words):
     with pytest.raises(InvalidMessageError, match=words):
@@ -82,5 +89,12 @@ def test_bad_numbers_are_refused(number):
 
 
 def test_too_many_are_refused():
-    with pytest.raises(InvalidMessageError, match='at most 3 twists'):
-        read(array(limit('a'), limit('b')), max_size=3)
+    message = array(limit('a'), limit('b'))
+    assert len(read(message, max_size=4)) == 2
+    with pytest.raises(InvalidMessageError, match=(
+            r'^joint_limits must .*at most 3 twists \(.*max_request_size\), got 2 joints of 2 ')):
+        read(message, max_size=3)
+
+
+def test_the_smallest_limit_is_the_one_that_the_error_names():
+    assert read(array(limit(max_torque=1e-12))).max_torques.tolist() == [1e-12]

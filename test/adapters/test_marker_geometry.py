@@ -30,6 +30,19 @@ def test_the_rim_of_a_cone_is_at_its_edge(friction):
     np.testing.assert_allclose(tangential, friction * vertices[1:, 2], atol=EXACT)
     assert (faces[:, 0] == 0).all()
     assert sorted(faces[:, 1]) == sorted(faces[:, 2]) == list(range(1, len(vertices)))
+    assert faces.dtype == np.uint32
+
+
+@pytest.mark.parametrize('sides', [3, 24])
+def test_a_cone_is_open_along_the_normal_and_turned_outward(sides):
+    """Its triangles are those of a regular pyramid, and with a lid they would enclose it."""
+    vertices, faces = cone_mesh(0.5, 2.0, sides)
+    assert (len(vertices), len(faces)) == (sides + 1, sides)
+    first, second = vertices[faces[:, 1]], vertices[faces[:, 2]]
+    np.testing.assert_allclose(
+        np.linalg.norm(first - second, axis=1), 2.0 * np.sin(np.pi / sides), atol=EXACT)
+    outward = np.cross(first, second)
+    assert (np.einsum('fi,fi->f', outward[:, :2], (first + second)[:, :2]) > 0.0).all()
 
 
 @pytest.mark.parametrize('resolution', [2, 5, 36])

@@ -27,6 +27,6 @@ def test_whole_numbers_become_floats():
 
 
 def test_the_error_names_field_value_and_rule():
-    with pytest.raises(InvalidMessageError, match=r'load\.z .*at most 1e\+12') as e:
+    with pytest.raises(InvalidMessageError, match=(
+            r'^load\.z must be finite and at most 1e\+12 .*\[0\.0, nan\]$')):
         checked_numbers((0.0, math.nan), 'load.z')
-    assert 'nan' in str(e.value)

@@ -43,7 +43,7 @@ def test_rounding_of_the_norm_is_forgiven_and_made_exact(factor):
     (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.01), (0.5, 0.5, 0.5, 0.6), (1e200, 0.0, 0.0, 1.0)])
 def test_other_norms_are_refused_with_the_way_out(numbers):
     x, y, z, w = numbers
-    with pytest.raises(InvalidMessageError, match='a.orientation must be a quaternion of norm 1'):
+    with pytest.raises(InvalidMessageError, match='^a.orientation must be a quaternion of norm 1'):
         pose_arrays(Pose(orientation=Quaternion(x=x, y=y, z=z, w=w)), 'a')
 
 
@@ -54,7 +54,7 @@ def test_other_norms_are_refused_with_the_way_out(numbers):
 def test_a_bad_number_is_refused_by_field(part, axis, value):
     message = pose()
     setattr(getattr(message, part), axis, value)
-    with pytest.raises(InvalidMessageError, match=f'poses.3..{part} must be'):
+    with pytest.raises(InvalidMessageError, match=f'^poses.3..{part} must be'):
         pose_arrays(message, 'poses[3]')
 
 

@@ -7,8 +7,9 @@ import pytest
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, ReliabilityPolicy
 
 
-@pytest.mark.parametrize('profile', [qos.newest_sample(), qos.newest_command()])
-def test_only_the_newest_and_never_to_late_joiners(profile):
+@pytest.mark.parametrize('make', [qos.newest_sample, qos.newest_command])
+def test_only_the_newest_and_never_to_late_joiners(make):
+    profile = make()
     assert profile.durability == DurabilityPolicy.VOLATILE
     assert profile.history == HistoryPolicy.KEEP_LAST
     assert profile.depth == 1
@@ -17,3 +18,11 @@ def test_only_the_newest_and_never_to_late_joiners(profile):
 def test_samples_may_be_lost_and_commands_may_not():
     assert qos.newest_sample().reliability == ReliabilityPolicy.BEST_EFFORT
     assert qos.newest_command().reliability == ReliabilityPolicy.RELIABLE
+
+
+def test_markers_wait_in_a_queue_and_are_not_latched_either():
+    """A DELETEALL must not be overwritten by the picture that follows it."""
+    profile = qos.display()
+    assert profile.history == HistoryPolicy.KEEP_LAST and profile.depth > 1
+    assert profile.reliability == ReliabilityPolicy.RELIABLE
+    assert profile.durability == DurabilityPolicy.VOLATILE

@@ -26,8 +26,16 @@ def test_every_noise_reaches_the_argument_of_its_name():
 @pytest.mark.parametrize('name', ['contact_noise', 'normal_noise', 'friction_noise'])
 @pytest.mark.parametrize('value', BAD_NUMBERS)
 def test_a_noise_that_is_no_number_is_refused_by_name(name, value):
-    with pytest.raises(InvalidMessageError, match=f'{name} must be finite'):
+    with pytest.raises(InvalidMessageError, match=f'^{name} must be finite'):
         noise_from(RobustAlpha.Request(**{name: value}))
+
+
+@pytest.mark.parametrize('value', BAD_NUMBERS)
+def test_a_load_noise_or_quantile_that_is_no_number_is_refused_by_name(value):
+    with pytest.raises(InvalidMessageError, match='^load_noise must be finite'):
+        noise_from(RobustAlpha.Request(load_noise=wrench(tz=value)))
+    with pytest.raises(InvalidMessageError, match='^quantile must be finite'):
+        sampling_from(RobustAlpha.Request(quantile=value), 0.1, 9)
 
 
 def test_zero_stands_for_the_defaults():
@@ -40,7 +48,8 @@ def test_zero_stands_for_the_defaults():
 
 
 def test_too_many_samples_are_refused():
-    with pytest.raises(InvalidMessageError, match='samples must be at most 29 .* got 30'):
+    with pytest.raises(InvalidMessageError, match=(
+            r'^samples must be at most 29 \(parameter max_request_size\), got 30$')):
         sampling_from(RobustAlpha.Request(samples=30), 0.1, 29)
 
 
@@ -63,4 +72,5 @@ def test_without_a_feasible_sample_there_is_nothing_but_the_code():
     message = RobustAlpha.Response()
     fill_robust_alpha(message, answer)
     assert message.result.code == ResultCode.INFEASIBLE
+    assert 'none of the 5 samples' in message.result.message
     assert message == RobustAlpha.Response(result=message.result)

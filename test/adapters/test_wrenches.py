@@ -42,5 +42,5 @@ def test_arrays_of_whole_numbers_and_of_single_precision_are_written_as_floats()
 def test_a_bad_component_is_refused_by_field(part, axis, value):
     message = wrench()
     setattr(getattr(message, part), axis, value)
-    with pytest.raises(InvalidMessageError, match='external_wrench must be finite and at most'):
+    with pytest.raises(InvalidMessageError, match='^external_wrench must be finite and at most'):
         wrench_array(message, 'external_wrench')
