@@ -12,6 +12,7 @@ alpha_upper - alpha is the price of the margin.
 """
 
 import dataclasses
+from functools import partial
 
 from grasp_quality import friction_cone, kernel_solver
 from grasp_quality.arrays import frozen
@@ -22,6 +23,7 @@ from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.proof import GAP_TOLERANCE, held, prove
 from grasp_quality.solution import Status
 from grasp_quality.solve import prove_optimal, task_share
+from grasp_quality.time_limit import TimeLimit
 import numpy as np
 
 # weights of what eq. (11) gives none; a cone's edge is only as sharp as rounding, which goes by
@@ -46,7 +48,7 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
     barrier_weight : float
         eps > 0, in the unit of alpha.
     time_limit_s : float, optional
-        For deciding whether strictly interior forces exist [s].
+        For the whole question [s].
 
     Returns
     -------
@@ -59,7 +61,9 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
     """
     grasp, unit = problem.grasp, problem.virtual.unit
     eps = barrier_weight / unit
-    center = _center(problem, eps, solution.alpha_upper / unit > NEGLIGIBLE * problem.reach)
+    limit = TimeLimit.of(time_limit_s)
+    center = _center(
+        problem, eps, solution.alpha_upper / unit > NEGLIGIBLE * problem.reach, limit)
     if center is not None:
         shares, values, multipliers = center
         values = held(values, solution.alpha_upper / unit)
@@ -78,7 +82,7 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
                     proof, objective=float(objective), upper=float(upper),
                     size=max(eps, proof.size)),
                 barrier_weight=barrier_weight)
-    if not has_interior(problem, time_limit_s):
+    if not has_interior(problem, limit):
         return dataclasses.replace(
             solution, status=Status.OPTIMAL_NO_INTERIOR, barrier_weight=barrier_weight)
     raise SolverError(
@@ -94,7 +98,7 @@ def _log_det(grasp, shares):
     return friction_cone.log_det(shares, (grasp.scales > 0.0).astype(np.float64))
 
 
-def _center(problem, eps, with_task):
+def _center(problem, eps, with_task, limit):
     """
     Find the weighted centre: forces as shares (k, 4), values (t,) and multipliers, or None.
 
@@ -105,10 +109,10 @@ def _center(problem, eps, with_task):
     found = None
     if with_task and kernel_solver.handles(problem):
         weights = np.where(_frictional(grasp), 1.0, 0.5) * eps
-        answer = kernel_solver.run(problem, weights=weights)
+        answer = kernel_solver.run(problem, limit, weights)
         if answer.solved:
             found = answer.shares, answer.values, answer.multipliers
-    found = found or _general_center(problem, eps, with_task)
+    found = found or _general_center(problem, eps, with_task, limit)
     if found is None:
         return None
     shares, values, multipliers = found
@@ -118,7 +122,7 @@ def _center(problem, eps, with_task):
     return shares / excess, values, multipliers
 
 
-def _general_center(problem, eps, with_task):
+def _general_center(problem, eps, with_task, limit):
     """Weighted centre of any problem, by ``centering``."""
     layout = problem.layout
     blocks = layout.blocks  # (blocks, d), -1 where padded
@@ -132,7 +136,8 @@ def _general_center(problem, eps, with_task):
     weights = np.where(
         np.isin(blocks[:, 0], layout.contact_variables), np.where(is_line, 0.5, 1.0) * eps,
         np.where(is_line, NO_WEIGHT_LINE, NO_WEIGHT_CONE * max(1.0, eps)))
-    found = weighted_center(E, problem.e, c, weights)
+    found = weighted_center(E, problem.e, c, weights,
+                            on_step=None if limit is None else partial(limit.remaining_s, problem))
     if found is None:
         return None
     u = np.zeros(layout.shape[1])

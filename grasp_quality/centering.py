@@ -27,7 +27,7 @@ RANK_TOLERANCE = 1e-9
 
 
 @np.errstate(over='ignore', invalid='ignore', divide='ignore')  # where there is no centre
-def weighted_center(E, e, c, weights, start=None):
+def weighted_center(E, e, c, weights, start=None, on_step=None):
     """
     Find the weighted centre.
 
@@ -43,6 +43,8 @@ def weighted_center(E, e, c, weights, start=None):
         w > 0 of each cone, for log det; half of what a half line's own logarithm would have.
     start : (u, x), optional
         Centre of a problem close by with the same weights, to begin from.
+    on_step : callable, optional
+        Called before every step; what it raises ends the search.
 
     Returns
     -------
@@ -71,6 +73,8 @@ def weighted_center(E, e, c, weights, start=None):
         z[:, 1:] *= -1.0
     best, best_distance, step = None, np.inf, 0.0
     for _ in range(MAX_ITERATIONS):
+        if on_step is not None:
+            on_step()
         primal = e - E_flat @ u.ravel()
         dual = (E_flat.T @ x).reshape(blocks, d) - c - z
         excess = np.abs((u * z).sum(axis=1) / 2.0 - weights).mean()

@@ -12,10 +12,12 @@ equilibrium, cones and bound are worked out anew from the forces.
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 from grasp_quality.centering import weighted_center
 from grasp_quality.problem import ConicProblem
 from grasp_quality.proof import Proof, prove
+from grasp_quality.time_limit import TimeLimit
 import numpy as np
 from numpy.typing import NDArray
 
@@ -47,7 +49,8 @@ class ForceCenter:
 
 
 def force_center(problem: ConicProblem, value: float, cap_weight: float = 1.0,
-                 start: ForceCenter | None = None) -> ForceCenter | None:
+                 start: ForceCenter | None = None,
+                 limit: TimeLimit | None = None) -> ForceCenter | None:
     """
     Find the forces with the largest margin at a fixed value of the task.
 
@@ -61,10 +64,16 @@ def force_center(problem: ConicProblem, value: float, cap_weight: float = 1.0,
         w > 0, weight of the slack of every bound against the friction cones.
     start : ForceCenter, optional
         Of contacts close by; speeds the search up and does not change the answer.
+    limit : TimeLimit, optional
+        Of the question that this is part of.
 
     Returns
     -------
     ForceCenter, or None where no force is strictly inside all cones and bounds
+
+    Raises
+    ------
+    SolverTimeoutError
 
     """
     layout, virtual = problem.layout, problem.virtual
@@ -86,9 +95,10 @@ def force_center(problem: ConicProblem, value: float, cap_weight: float = 1.0,
     if start is not None and start.state[0].shape == blocks.shape:
         begin = start.state
     columns, objective = np.where(padded, 0.0, E[:, blocks]), np.zeros(blocks.shape)
-    found = weighted_center(columns, e, objective, weights, begin)
+    on_step = None if limit is None else partial(limit.remaining_s, problem)
+    found = weighted_center(columns, e, objective, weights, begin, on_step)
     if found is None and begin is not None:
-        found = weighted_center(columns, e, objective, weights)
+        found = weighted_center(columns, e, objective, weights, on_step=on_step)
     if found is None:
         return None
     u = np.zeros(layout.shape[1])

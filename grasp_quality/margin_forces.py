@@ -20,6 +20,7 @@ from grasp_quality.grasp import Grasp
 from grasp_quality.holding import minimum_forces
 from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.solution import NO_FORCES, NO_USAGE, Status
+from grasp_quality.time_limit import TimeLimit
 from grasp_quality.wrench import as_wrench
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -96,7 +97,7 @@ def hold_forces(grasp: Grasp, external_wrench: ArrayLike | None = None,
     start : HoldForces, optional
         Answer for contacts close by, to begin from; changes the time only.
     time_limit_s : float, optional
-        For telling why there is no centre, where there is none [s].
+        For the whole question [s].
 
     Returns
     -------
@@ -114,12 +115,14 @@ def hold_forces(grasp: Grasp, external_wrench: ArrayLike | None = None,
     if task_wrench is not None:
         load = load - multiple * as_wrench(task_wrench, 'task wrench')
     problem = assemble(grasp, NO_TASK, load)
-    center = force_center(problem, 0.0, weight, None if start is None else start.center)
+    limit = TimeLimit.of(time_limit_s)
+    center = force_center(
+        problem, 0.0, weight, None if start is None else start.center, limit)
     if center is not None:
         return HoldForces(
             grasp, Status.OPTIMAL, frozen(center.shares * grasp.force_units),
             frozen(usage_of_shares(center.shares)), center.proof.bound_usage, center)
-    least = minimum_forces(grasp, load, time_limit_s)
+    least = minimum_forces(grasp, load, limit)
     if least.status is Status.INFEASIBLE:
         return HoldForces(grasp, Status.INFEASIBLE, cast(Array, NO_FORCES),
                           cast(Array, NO_USAGE), least.peak)

@@ -58,7 +58,7 @@ class HoldingForces:
         except GraspQualityError as exc:
             self._tell(str(exc))
             return None
-        if time.monotonic() > deadline:  # the search for the margin looks at no clock
+        if time.monotonic() > deadline:
             self._tell('the contacts became stale while they were computed')
             return None
         if not held.feasible:

@@ -45,7 +45,7 @@ def with_reserve(problem: ConicProblem, solution: Solution, alpha_reserve: float
     start : Solution, optional
         Answer with a reserve for contacts close by, to begin from; changes the time only.
     time_limit_s : float, optional
-        For deciding whether strictly interior forces exist [s].
+        For the whole question [s].
 
     Returns
     -------
@@ -58,11 +58,12 @@ def with_reserve(problem: ConicProblem, solution: Solution, alpha_reserve: float
     """
     alpha = solution.alpha - alpha_reserve * (solution.alpha - solution.alpha_lower)
     begin = None if start is None else start.center
-    center = force_center(problem, alpha / problem.virtual.unit, start=begin)
+    limit = TimeLimit.of(time_limit_s)
+    center = force_center(problem, alpha / problem.virtual.unit, start=begin, limit=limit)
     if center is not None:
         answer = with_forces(problem, solution, center.shares, center.values, center.proof)
         return dataclasses.replace(answer, center=center)
-    if has_interior(problem, time_limit_s):
+    if has_interior(problem, limit):
         raise SolverError(
             f'no centre could be proved with alpha_reserve {alpha_reserve:g}: choose a larger '
             'one, or 0', problem, 'centering failed')
