@@ -11,7 +11,7 @@ from typing import Any
 
 from geometry_msgs.msg import PoseArray, Wrench, WrenchStamped
 from grasp_quality_hand.audit_parts import (
-    Contacts, Forces, LocalWrench, Quality, ReceivedContact)
+    Contacts, Forces, LocalWrench, Quality, ReceivedContact, ReceivedJoint)
 from grasp_quality_hand.force_rules import Array, Force
 from grasp_quality_msgs.msg import (
     Contact, ContactArray, ContactForceArray, GraspQuality, ResultCode)
@@ -62,7 +62,11 @@ def read_contacts(message: ContactArray, sent_ns: int) -> Contacts:
             xyz(c.pose.position), axes(c.pose.orientation), c.name, c.finger,
             MODELS.get(c.model, ''), c.friction_coefficient or None,
             c.torsional_friction_coefficient or None, c.max_normal_force or None)
-         for c in message.contacts], are_poses=False)
+         for c in message.contacts], are_poses=False,
+        joints=[ReceivedJoint(
+            j.name, j.max_torque, j.gravity_torque,
+            [np.concatenate([xyz(t.linear), xyz(t.angular)]) for t in j.twists])
+            for j in message.joint_limits])
 
 
 def read_quality(message: GraspQuality, sent_ns: int) -> Quality:

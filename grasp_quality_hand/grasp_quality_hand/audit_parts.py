@@ -10,7 +10,7 @@ from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from grasp_quality_hand.force_rules import Array, Force, Limits
+from grasp_quality_hand.force_rules import Array, Force, Joint, Limits
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,16 @@ class ReceivedContact:
 
 
 @dataclass(frozen=True)
+class ReceivedJoint:
+    """Torque limit of a joint as it was published, with one column (6,) for each contact."""
+
+    name: str
+    max_torque: float
+    gravity_torque: float
+    columns: Sequence[Array]
+
+
+@dataclass(frozen=True)
 class Contacts:
     """All contacts of one message; are_poses: a PoseArray, whose names are parameters."""
 
@@ -49,12 +59,16 @@ class Contacts:
     frame: str
     contacts: Sequence[ReceivedContact]
     are_poses: bool
+    joints: Sequence[ReceivedJoint] = ()
 
     @cached_property
     def content(self) -> Hashable:
         """All that two messages of one stamp may differ in."""
-        return self.frame, tuple((c.position.tobytes(), c.R.tobytes(), c.name, c.finger, c.model,
-                                  c.friction, c.torsional_friction, c.cap) for c in self.contacts)
+        contacts = tuple((c.position.tobytes(), c.R.tobytes(), c.name, c.finger, c.model,
+                          c.friction, c.torsional_friction, c.cap) for c in self.contacts)
+        joints = tuple((j.name, j.max_torque, j.gravity_torque,
+                        *(column.tobytes() for column in j.columns)) for j in self.joints)
+        return self.frame, contacts, joints
 
 
 @dataclass(frozen=True)
@@ -118,3 +132,9 @@ def limits_of(received: Contacts, settings: Settings) -> dict[str, Limits]:
             gamma if model == 'SFCE' else 0.0,
             settings.max_normal_force if contact.cap is None else contact.cap, finger or name)
     return limits
+
+
+def joints_of(received: Contacts, names: Sequence[str]) -> list[Joint]:
+    """Give the columns of every joint the names of the contacts that they belong to, in order."""
+    return [Joint(joint.name, joint.max_torque, joint.gravity_torque,
+                  dict(zip(names, joint.columns))) for joint in received.joints]

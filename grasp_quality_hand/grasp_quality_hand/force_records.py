@@ -15,8 +15,9 @@ import itertools
 from typing import TypeVar
 
 from grasp_quality_hand.audit_parts import (
-    Contacts, Forces, limits_of, LocalWrench, Quality, Settings)
-from grasp_quality_hand.force_rules import broken_balance, broken_forces, SMALL
+    Contacts, Forces, joints_of, limits_of, LocalWrench, Quality, Settings)
+from grasp_quality_hand.force_rules import (
+    broken_balance, broken_forces, broken_joints, SMALL)
 import numpy as np
 
 Part = TypeVar('Part')
@@ -163,4 +164,5 @@ def _wrong(part: Forces, contacts: Contacts, quality: Quality, settings: Setting
     if said:
         return said
     alpha = 0.0 if part.are_holding else quality.alpha
-    return broken_balance(part.forces, limits, alpha * quality.task - quality.load)
+    said = broken_joints(part.forces, joints_of(contacts, list(limits)))
+    return said + broken_balance(part.forces, limits, alpha * quality.task - quality.load)

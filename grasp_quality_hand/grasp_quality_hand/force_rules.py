@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 BALANCE = 1e-6  # of the caps' sum; torques over the largest distance from the contacts' mean
 CONE = 1e-6     # of a cone usage or a use of the bound
 PLACE = 1e-9    # of positions [m, relative above one] and unit normals [-]
+JOINT = 1e-6    # of a joint's largest torque
+UNKNOWN = np.full(6, np.nan)  # no column: a node must refuse such joint limits
 SMALL = 1e-6    # share of the cap below which a contact counts as not loaded
 
 
@@ -44,6 +46,26 @@ class Limits:
     torsional_friction: float
     cap: float
     finger: str
+
+
+@dataclass(frozen=True)
+class Joint:
+    """
+    What the motor of a joint may be asked for.
+
+    Parameters
+    ----------
+    name : str
+    max_torque, gravity_torque : float [N m]
+    columns : mapping of contact names to (6,) arrays [m, -]
+        Torque for each newton and newton metre of that contact's wrench in the object's axes.
+
+    """
+
+    name: str
+    max_torque: float
+    gravity_torque: float
+    columns: Mapping[str, Array]
 
 
 @dataclass(frozen=True)
@@ -116,6 +138,17 @@ def _broken_force(force: Force, own: Limits) -> list[str]:
         said.append(f'it lies outside its friction cone: {norm:.9g} N where {n:.9g} N are carried')
     if n > 10.0 * small and abs(norm / n - force.cone_usage) > CONE:
         said.append(f'its cone usage is {norm / n:.9g}, not {force.cone_usage:.9g}')
+    return said
+
+
+def broken_joints(forces: Sequence[Force], joints: Sequence[Joint]) -> list[str]:
+    """Tell which joints the forces, all of them of contacts received, ask for too much torque."""
+    said = []
+    for joint in joints:
+        torque = joint.gravity_torque + sum(
+            float(joint.columns.get(force.name, UNKNOWN) @ force.wrench) for force in forces)
+        if not abs(torque) <= joint.max_torque * (1.0 + JOINT):
+            said.append(f'joint {joint.name} needs {torque:.9g} N m of {joint.max_torque:.9g}')
     return said
 
 

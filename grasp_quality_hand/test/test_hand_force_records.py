@@ -5,7 +5,7 @@
 import itertools
 
 from audit_cases import changed, CONTACTS, FORCES, LOCAL, QUALITY, RIGHT_FORCE, SETTINGS
-from grasp_quality_hand.audit_parts import limits_of
+from grasp_quality_hand.audit_parts import limits_of, ReceivedJoint
 from grasp_quality_hand.force_records import ForceRecords, GRACE_S, PATIENCE_S
 import numpy as np
 import pytest
@@ -133,3 +133,11 @@ def test_defaults_fill_what_messages_leave_open():
     assert (limits['contact_0'].friction, limits['contact_0'].torsional_friction) == (0.5, 0.005)
     assert limits['contact_1'].finger == 'contact_1'
     assert limits_of(CONTACTS, changed(SETTINGS, contact_model='FPC'))['left'].friction == 0.0
+
+
+def test_joint_limits_that_came_with_the_contacts_are_kept():
+    for limit, broken in ((0.61, []), (0.59, ['joint knuckle needs 0.6 N m of 0.59'])):
+        columns = [np.array([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), np.zeros(6)]
+        limited = changed(CONTACTS, joints=[ReceivedJoint('knuckle', limit, 0.0, columns)])
+        said, count = judged(*[limited if p is CONTACTS else p for p in ALL])
+        assert [text.split(': ', 1)[1] for text in said] == broken and count.judged == 1

@@ -3,8 +3,8 @@
 """Each rule of the audit finds the force set that breaks it, and no other."""
 
 from audit_cases import changed, CONTACTS, LEFT_FORCE, RIGHT_FORCE, SETTINGS
-from grasp_quality_hand.audit_parts import limits_of
-from grasp_quality_hand.force_rules import broken_balance, broken_forces
+from grasp_quality_hand.audit_parts import joints_of, limits_of, ReceivedJoint
+from grasp_quality_hand.force_rules import broken_balance, broken_forces, broken_joints
 import numpy as np
 import pytest
 
@@ -60,3 +60,19 @@ def test_a_wrench_that_is_not_the_sum_is_found(axis):
     assert len(broken_balance(GOOD, LIMITS, off)) == 1
     off[axis] = LIFT[axis] + 1e-7 * (1.0 if axis < 3 else 0.02)
     assert broken_balance(GOOD, LIMITS, off) == []
+
+
+@pytest.mark.parametrize('gravity, limit, fits', [
+    (0.0, 0.6001, True), (0.0, 0.5999, False), (0.1, 0.7001, True), (0.1, 0.6999, False),
+    (-1.3, 0.7001, True), (-1.3, 0.6999, False)])
+def test_a_motor_that_is_asked_for_too_much_is_found(gravity, limit, fits):
+    """A joint 0.1 m from the left contact carries its 6 N: 0.6 N m."""
+    columns = [np.array([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), np.zeros(6)]
+    received = changed(CONTACTS, joints=[ReceivedJoint('knuckle', limit, gravity, columns)])
+    said = broken_joints(GOOD, joints_of(received, list(LIMITS)))
+    assert (said == []) == fits and all('joint knuckle needs' in text for text in said)
+
+
+def test_a_joint_without_a_column_for_a_contact_that_presses_is_found():
+    received = changed(CONTACTS, joints=[ReceivedJoint('knuckle', 9.0, 0.0, [np.zeros(6)])])
+    assert len(broken_joints(GOOD, joints_of(received, list(LIMITS)))) == 1
