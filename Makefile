@@ -7,9 +7,10 @@ DEMO_FLAGS ?=
 TEST_FLAGS ?=
 BENCH_FLAGS ?=
 TRUTH_FLAGS ?=
+MUTANTS_FLAGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench truth clean
+.PHONY: help setup demo test lint bench truth mutants clean
 
 help:
 	@echo 'make setup   make .venv (ROS included, where there is none) and build the packages'
@@ -19,6 +20,7 @@ help:
 	@echo 'make lint    style of the code'
 	@echo 'make bench   the figures of docs/performance.md (BENCH_FLAGS goes to it)'
 	@echo 'make truth   prediction against physics, docs/truth.md (TRUTH_FLAGS goes to it)'
+	@echo 'make mutants whether the tests notice changes of the code (MUTANTS_FLAGS goes to it)'
 	@echo 'make clean   remove .venv, build/, install/ and log/'
 	@echo 'PYTHON=/path/to/python3.12 chooses the interpreter'
 
@@ -39,6 +41,9 @@ bench: setup
 
 truth: setup
 	@. ./env.sh && exec python -m benchmarks.truth $(TRUTH_FLAGS)
+
+mutants: setup
+	@. ./env.sh && exec python scripts/mutants.py $(MUTANTS_FLAGS)
 
 clean:
 	rm -rf .venv build install log .pytest_cache .hypothesis
