@@ -6,7 +6,23 @@ Task-oriented grasp quality: how much of a task wrench a grasp can apply, with w
 After R. Haschke, J. J. Steil, I. Steuwer, H. Ritter, "Task-Oriented Quality Measures for Dextrous
 Grasping" (2005). Conventions: SI units; wrenches [fx fy fz tx ty tz] about the origin of the
 object frame; contact frames with +z along the inward normal; forces are those the finger applies
-on the object. See docs/conventions.md.
+on the object. See docs/conventions.md; examples/python_only.py is a first program.
+
+========================================================  =======================================
+question                                                  function
+========================================================  =======================================
+how much of a task, with which forces, what limits it     ``evaluate(grasp, task)``
+how to hold a load: least forces, or those with margin    ``minimum_forces``, ``hold_forces``
+how close measured forces are to slip, what restores it   ``slip_margin``, ``measured_margin``
+what to change for more                                   ``explain``
+worst case over all directions, size of the wrench space  ``ball_radius``, ``volume``
+alpha for many directions, or for many grasps             ``wrench_map``, ``evaluate_many``
+alpha when contacts, friction and load are uncertain      ``robust_alpha``
+can it hold anything at all                               ``force_closure``, ``grasp_indices``
+========================================================  =======================================
+
+Contacts are ``Contact``, a grasp is ``Grasp(contacts, bound)``, tasks are ``TaskWrench``,
+``TaskCone``, ``TaskPolytope`` and ``TaskEllipsoid``. All errors are ``GraspQualityError``.
 """
 
 from grasp_quality.ball import ball_radius, BallRadius, ellipsoid_scale

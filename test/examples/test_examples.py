@@ -47,6 +47,17 @@ def test_evaluate_grasp_prints_the_answer(node, run):
     assert right.startswith('right: -10.000') and '+5.000 N' in right
 
 
+def test_python_only_needs_no_node(run):
+    """The same pinch; 2 N need at least 2 N of pressing, and 10 N are the most."""
+    process = run('python_only.py', '/nobody')
+    assert process.wait() == 0, process.log()
+    first, *pressed, text = process.log().splitlines()
+    assert first.startswith('alpha = 5.0000 times the weight')
+    normals = [float(line.split(' N,')[0].split()[-1]) for line in pressed]
+    assert len(normals) == 2 and normals[0] == normals[1] and 2.0 < normals[0] < 10.0
+    assert text.startswith('The grasp applies 5 times the task')
+
+
 def test_evaluate_grasp_says_why_there_is_no_answer(start, run):
     process = run('evaluate_grasp.py', start(autostart='false').namespace)
     assert process.wait() == 1
