@@ -9,6 +9,7 @@ from adapter_messages import EXACT
 from builtin_interfaces.msg import Duration
 from grasp_quality import Contact, ContactModel, evaluate, Grasp, TaskWrench, wrench_map
 from grasp_quality.directions import force_grid
+from msg_adapters.colours import MEASURED, OPTIMAL, TASK as LILAC, UNKNOWN, usage_colours
 from msg_adapters.markers import delete_all, grasp_markers, map_marker, Picture
 import numpy as np
 import pytest
@@ -21,10 +22,10 @@ TASK = np.array([0.0, 1.0, 0.0, 0.0, 0.0, 0.2])
 HEADER = Header(frame_id='object')
 
 
-def grasp(model=ContactModel.SFCE):
+def grasp(model=ContactModel.SFCE, size=1.0):
     return Grasp([
-        Contact((x, 0.01, 0.0), normal=(-x / 0.03, 0.0, 0.0), model=model, friction=0.5,
-                torsional_friction=0.01, max_normal_force=10.0, name=name)
+        Contact((size * x, size * 0.01, 0.0), normal=(-x / 0.03, 0.0, 0.0), model=model,
+                friction=0.5, torsional_friction=0.01, max_normal_force=10.0, name=name)
         for x, name in ((-0.03, 'thumb'), (0.03, 'index'))])
 
 
@@ -40,6 +41,15 @@ def picture(measured=(None, None), model=ContactModel.SFCE):
 
 def by_namespace(message, namespace, action=Marker.ADD):
     return {m.id: m for m in message.markers if m.ns == namespace and m.action == action}
+
+
+def rgba(marker):
+    return marker.color.r, marker.color.g, marker.color.b, marker.color.a
+
+
+def place(marker):
+    p = marker.pose.position
+    return np.array([p.x, p.y, p.z])
 
 
 def ends(marker):
@@ -65,19 +75,23 @@ def test_optimal_arrows_add_up_to_the_task_arrow():
 def test_the_head_of_a_cone_has_its_tip_at_the_contact_and_the_angle_of_friction():
     shown = picture()
     cones = by_namespace(grasp_markers(shown, anew=False), 'friction_cones')
+    assert list(cones) == [0, 1]
     for i, marker in cones.items():
         base, tip = ends(marker)
         np.testing.assert_allclose(tip, shown.grasp.positions[i], atol=EXACT)
         along = (base - tip) / np.linalg.norm(base - tip)
         np.testing.assert_allclose(along, shown.grasp.rotations[i][:, 2], atol=EXACT)
         assert marker.scale.z == pytest.approx(np.linalg.norm(base - tip))
+        assert marker.scale.z == pytest.approx(0.4 * shown.grasp.lever_arm)  # docs/viewing.md
         assert 0.5 * marker.scale.y / marker.scale.z == pytest.approx(0.5)
 
 
 def test_a_contact_without_friction_has_a_cone_that_is_a_line():
     held = grasp(ContactModel.FPC)
     shown = dataclasses.replace(picture(), grasp=held)
-    for marker in by_namespace(grasp_markers(shown, False), 'friction_cones').values():
+    cones = by_namespace(grasp_markers(shown, False), 'friction_cones')
+    assert list(cones) == [0, 1]
+    for marker in cones.values():
         assert 0.0 < marker.scale.y < 0.01 * marker.scale.z
 
 
@@ -104,8 +118,11 @@ def test_only_the_limiting_contact_is_highlighted():
 
 
 def test_the_scale_is_stated():
-    text = by_namespace(grasp_markers(picture(), False), 'legend')[0].text
-    assert '3 mm/N' in text and 'mm/(N m)' in text
+    shown = picture()
+    text = by_namespace(grasp_markers(shown, False), 'legend')[0].text
+    torques = 1e3 * SCALE / shown.grasp.lever_arm
+    assert text == (
+        f'alpha {shown.alpha:.4g}, arrows 3 mm/N, torques {torques:.3g} mm/(N m)')
 
 
 def test_markers_are_complete_and_replace_each_other():
@@ -117,7 +134,8 @@ def test_markers_are_complete_and_replace_each_other():
         assert marker.header.frame_id == 'object' and marker.lifetime.sec == 1
         if marker.action == Marker.ADD:
             assert marker.pose.orientation.w == 1.0 and marker.scale.z > 0.0
-            assert marker.color.a > 0.0
+            assert 0.0 < marker.color.a <= 1.0 and 0.0 <= min(rgba(marker)) <= max(
+                rgba(marker)) <= 1.0
     serialize_message(message)
 
 
@@ -125,7 +143,75 @@ def test_another_set_of_contacts_begins_with_an_empty_screen():
     actions = [m.action for m in grasp_markers(picture(), anew=True).markers]
     assert actions[0] == Marker.DELETEALL and Marker.DELETEALL not in actions[1:]
     only, = delete_all(HEADER).markers
-    assert only.action == Marker.DELETEALL
+    assert only.action == Marker.DELETEALL and only.header == HEADER
+
+
+def test_a_scene_twice_as_large_is_drawn_twice_as_large():
+    """Forces as they are, arms, torques and metres per newton doubled: every length doubles."""
+    small = dataclasses.replace(
+        picture((np.array([1.0, -2.0, 5.0, 0.1]),) * 2), limiting_contact='index')
+    large = dataclasses.replace(
+        small, grasp=grasp(size=2.0), task=TASK * [1, 1, 1, 2, 2, 2], metres_per_newton=2 * SCALE)
+    pairs = zip(grasp_markers(small, False).markers, grasp_markers(large, False).markers)
+    for first, second in pairs:
+        assert (first.ns, first.id, first.type, first.action) == (
+            second.ns, second.id, second.type, second.action)
+        np.testing.assert_allclose(2.0 * np.array(ends(first)), ends(second), atol=EXACT)
+        np.testing.assert_allclose(2.0 * place(first), place(second), atol=EXACT)
+        for axis in 'xyz':
+            assert getattr(second.scale, axis) == pytest.approx(2.0 * getattr(first.scale, axis))
+
+
+def test_arrows_are_told_apart_and_their_heads_are_no_longer_than_half_of_them():
+    shown = dataclasses.replace(
+        picture((np.array([1e-3, 0.0, 2e-3, 0.0]), np.array([1.0, -2.0, 5.0, 0.1]))),
+        limiting_contact='index')
+    message = grasp_markers(shown, False)
+    for namespace, colour in (
+            ('optimal_forces', OPTIMAL), ('measured_forces', MEASURED), ('task_force', LILAC),
+            ('task_torque', LILAC)):
+        arrows = by_namespace(message, namespace)
+        assert arrows
+        for arrow in arrows.values():
+            assert arrow.type == Marker.ARROW
+            assert rgba(arrow) == pytest.approx((*colour, 1.0))
+            tail, tip = ends(arrow)
+            assert arrow.scale.z <= 0.5 * np.linalg.norm(tip - tail) * (1.0 + EXACT)
+            assert arrow.scale.x < arrow.scale.y < shown.grasp.lever_arm
+    force, torque = (by_namespace(message, f'task_{part}')[0] for part in ('force', 'torque'))
+    assert torque.scale.x < force.scale.x and torque.scale.y < force.scale.y
+    ball = by_namespace(message, 'limiting_contact')[1]
+    assert ball.type == Marker.SPHERE
+    np.testing.assert_allclose(place(ball), shown.grasp.positions[1], atol=EXACT)
+    assert ball.scale.x == ball.scale.y == ball.scale.z < shown.grasp.lever_arm
+
+
+def test_names_stand_outside_of_the_object_and_the_legend_above_it():
+    shown = picture()
+    message = grasp_markers(shown, False)
+    names = by_namespace(message, 'names')
+    for i, marker in names.items():
+        assert marker.type == Marker.TEXT_VIEW_FACING
+        away = place(marker) - shown.grasp.positions[i]
+        normal = shown.grasp.rotations[i][:, 2]
+        reach = shown.grasp.lever_arm
+        assert -reach < away @ normal < 0.0
+        np.testing.assert_allclose(np.cross(away, normal), 0.0, atol=EXACT)
+    above = place(by_namespace(message, 'legend')[0]) - shown.grasp.center
+    assert above[2] > shown.grasp.lever_arm and not above[:2].any()
+
+
+def test_each_cone_has_the_colour_of_its_usage_and_grey_where_there_is_no_answer():
+    shown = dataclasses.replace(picture(), cone_usage=np.array([0.1, 0.9]))
+    cones = by_namespace(grasp_markers(shown, False), 'friction_cones')
+    for i, colour in enumerate(usage_colours(shown.cone_usage)):
+        assert rgba(cones[i])[:3] == pytest.approx(colour)
+    nothing = dataclasses.replace(shown, optimal=np.zeros((0, 4)), cone_usage=np.zeros(0))
+    message = grasp_markers(nothing, False)
+    assert not by_namespace(message, 'optimal_forces')
+    assert list(by_namespace(message, 'optimal_forces', Marker.DELETE)) == [0, 1]
+    for cone in by_namespace(message, 'friction_cones').values():
+        assert rgba(cone)[:3] == pytest.approx(UNKNOWN)
 
 
 @pytest.mark.parametrize('resolution', [3, 36])
@@ -133,7 +219,9 @@ def test_the_map_is_a_surface_of_alpha_times_direction(resolution):
     directions = force_grid(resolution)
     alphas = wrench_map(grasp(), directions).alpha
     marker, = map_marker(HEADER, resolution, alphas, SCALE, Duration(sec=1)).markers
-    assert marker.type == Marker.TRIANGLE_LIST
+    assert (marker.type, marker.ns, marker.header) == (Marker.TRIANGLE_LIST, 'force_map', HEADER)
+    assert marker.lifetime.sec == 1 and marker.pose.orientation.w == 1.0
+    assert marker.scale.x == marker.scale.y == marker.scale.z == 1.0
     assert len(marker.points) % 3 == 0 and len(marker.points) == len(marker.colors)
     vertices = {(p.x, p.y, p.z) for p in marker.points}
     wanted = {tuple(v) for v in (SCALE * alphas[:, None] * directions[:, :3]).tolist()}

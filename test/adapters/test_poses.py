@@ -33,17 +33,22 @@ def test_every_unit_quaternion_is_a_rotation(numbers):
     assert np.linalg.det(R) == pytest.approx(1.0, abs=EXACT)
 
 
-@pytest.mark.parametrize('factor', [0.9995, 1.0005])
-def test_rounding_of_the_norm_is_forgiven_and_made_exact(factor):
-    R = rotation_matrix(Quaternion(x=0.6 * factor, y=0.0, z=0.0, w=0.8 * factor), 'q')
-    np.testing.assert_allclose(R.T @ R, np.eye(3), atol=EXACT)
+@given(strategies.tuples(sizes, sizes, sizes, sizes), strategies.floats(0.9991, 1.0009))
+def test_rounding_of_the_norm_is_forgiven_and_made_exact(numbers, factor):
+    assume(np.linalg.norm(numbers) > 1e-3)
+    q = quaternion_of(numbers)
+    rounded = Quaternion(x=factor * q.x, y=factor * q.y, z=factor * q.z, w=factor * q.w)
+    np.testing.assert_allclose(
+        rotation_matrix(rounded, 'q'), rotation_matrix(q, 'q'), atol=EXACT)
 
 
 @pytest.mark.parametrize('numbers', [
     (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.01), (0.5, 0.5, 0.5, 0.6), (1e200, 0.0, 0.0, 1.0)])
 def test_other_norms_are_refused_with_the_way_out(numbers):
     x, y, z, w = numbers
-    with pytest.raises(InvalidMessageError, match='^a.orientation must be a quaternion of norm 1'):
+    with pytest.raises(InvalidMessageError, match=(
+            '^a.orientation must be a quaternion of norm 1.* of norm .*: normalise it, the '
+            r'identity is \(0, 0, 0, 1\)$')):
         pose_arrays(Pose(orientation=Quaternion(x=x, y=y, z=z, w=w)), 'a')
 
 

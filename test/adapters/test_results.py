@@ -7,6 +7,7 @@ from grasp_quality import (
     SolverTimeoutError, Status)
 from grasp_quality_msgs.msg import ResultCode
 from msg_adapters import errors
+from msg_adapters.result_codes import Code, status_code
 from msg_adapters.results import code_name, error_result, status_result
 import pytest
 
@@ -40,9 +41,16 @@ def test_optimal_needs_no_words_but_where_margin_is_missing():
     assert flat.code == ResultCode.OPTIMAL and 'margin' in flat.message
 
 
+def test_a_pinned_alpha_is_told():
+    pinned = status_result(Status.OPTIMAL, pinned=True)
+    assert pinned.code == ResultCode.OPTIMAL and pinned.message.startswith('alpha is pinned')
+    assert status_code(Status.OPTIMAL) == (Code.OPTIMAL, '')
+
+
 def test_infeasible_is_explained():
     assert status_result(Status.INFEASIBLE).code == ResultCode.INFEASIBLE
     assert 'balance' in status_result(Status.INFEASIBLE).message
+    assert 'balance' in status_code(Status.INFEASIBLE)[1]
     assert status_result(Status.INFEASIBLE, 'needs 3 times the caps').message == (
         'needs 3 times the caps')
 

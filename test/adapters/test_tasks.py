@@ -39,6 +39,7 @@ def test_other_frames_are_brought_into_the_object_frame():
     assert load_from(wrench(fx=1.0), move).tolist() == MOVED_X
     assert cone_task(cone(axis=wrench(fx=1.0)), move, 0).axis.tolist() == MOVED_X
     assert cone_task(cone(), move, 0).lateral_x.tolist() == MOVED_X
+    assert cone_task(cone(lateral_y=wrench(fx=1.0)), move, 0).lateral_y.tolist() == MOVED_X
     assert polytope_task(polytope(1), move, 9).wrenches.tolist() == [MOVED_X]
 
 
@@ -54,6 +55,20 @@ def test_a_task_without_direction_is_refused(size):
         cone_task(cone(axis=wrench(fx=size)), None, 0)
     with pytest.raises(InvalidMessageError, match=r'^directions\[1\] must not be zero'):
         wrench_rows([wrench(fx=1.0), wrench(fx=size)], None, 9, 'directions')
+
+
+def test_the_smallest_task_is_the_one_that_the_error_names():
+    assert wrench_task(wrench(fx=1e-12), None).wrench[0] == 1e-12
+
+
+@pytest.mark.parametrize('value', BAD_NUMBERS)
+def test_a_bad_number_is_refused_by_field(value):
+    with pytest.raises(InvalidMessageError, match='^external_wrench must be finite'):
+        load_from(wrench(tx=value), None)
+    with pytest.raises(InvalidMessageError, match='^task_wrench must be finite'):
+        wrench_task(wrench(tx=value), None)
+    with pytest.raises(InvalidMessageError, match=r'^directions\[1\] must be finite'):
+        wrench_rows([wrench(fx=1.0), wrench(tx=value)], None, 9, 'directions')
 
 
 def test_a_cone_keeps_its_parts():

@@ -19,12 +19,15 @@ def test_groups(bound, groups):
 
 
 def test_unknown_bound_lists_the_known_ones():
-    with pytest.raises(InvalidGraspError, match="'l1', 'l2', 'linf', 'finger'.*got 'l3'"):
+    with pytest.raises(InvalidGraspError, match=(
+            r"^bound must be one of \['l1', 'l2', 'linf', 'finger'\], got 'l3'$")):
         groups_of('l3', FINGERS)
 
 
 def test_finger_bound_says_which_contacts_have_no_finger():
-    with pytest.raises(InvalidGraspError, match=r'contacts \[1, 2\] have none'):
+    with pytest.raises(InvalidGraspError, match=(
+            r"^bound 'finger' needs .* contacts \[1, 2\] have none: set Contact.finger, or use "
+            "bound 'linf'$")):
         groups_of('finger', ['thumb', '', ''])
 
 

@@ -41,6 +41,19 @@ def test_usage_of_what_a_solver_leaves_on_an_idle_contact_is_zero():
     assert friction_cone.usage(idle, SCALES, CAPS, unloaded=1e-12)[1] > 1.0
 
 
+def test_idle_is_a_share_of_the_cap():
+    light = forces(t1=1e-8, n=1e-9) * (SCALES > 0.0)
+    caps = np.array([1.0, 1.0, 1e-3, 1.0])
+    assert friction_cone.usage(light, SCALES, caps) == pytest.approx(
+        [0.0, 0.0, 20.0, 0.0], rel=EXACT)
+
+
+def test_no_force_is_no_usage_whatever_counts_as_idle():
+    nothing = np.zeros((4, 4))
+    assert friction_cone.usage(nothing, SCALES, CAPS, unloaded=0.0).tolist() == [0.0] * 4
+    assert friction_cone.usage_of_shares(nothing, unloaded=0.0).tolist() == [0.0] * 4
+
+
 def test_usage_of_shares_is_usage():
     rng = np.random.default_rng(0)
     caps = rng.uniform(0.5, 2.0, 4)
