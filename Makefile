@@ -10,7 +10,7 @@ TRUTH_FLAGS ?=
 MUTANTS_FLAGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint bench truth mutants clean
+.PHONY: help setup demo test lint coverage bench truth mutants clean
 
 help:
 	@echo 'make setup   make .venv (ROS included, where there is none) and build the packages'
@@ -18,6 +18,7 @@ help:
 	@echo '             (DEMO_FLAGS=--keep runs until Ctrl-C)'
 	@echo 'make test    all tests (TEST_FLAGS goes to pytest)'
 	@echo 'make lint    style of the code'
+	@echo 'make coverage  branch coverage of the tests (TEST_FLAGS goes to pytest)'
 	@echo 'make bench   the figures of docs/performance.md (BENCH_FLAGS goes to it)'
 	@echo 'make truth   prediction against physics, docs/truth.md (TRUTH_FLAGS goes to it)'
 	@echo 'make mutants whether the tests notice changes of the code (MUTANTS_FLAGS goes to it)'
@@ -35,6 +36,9 @@ test: setup
 
 lint: setup
 	@. ./env.sh && exec scripts/lint.sh
+
+coverage: setup
+	@. ./env.sh && exec scripts/coverage.sh $(TEST_FLAGS)
 
 bench: setup
 	@. ./env.sh && exec python -m benchmarks $(BENCH_FLAGS)

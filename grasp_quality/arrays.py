@@ -2,10 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checked, read-only float64 arrays: how every number enters the library."""
 
+from __future__ import annotations
+
+from typing import SupportsFloat, TypeVar
+
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Scalar = TypeVar('Scalar', bound=np.generic)
+Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Ints = NDArray[np.int64]
+Codes = NDArray[np.int8]
 
 
-def checked(value, shape, name, error):
+def checked(value: ArrayLike, shape: tuple[int | None, ...], name: str,
+            error: type[ValueError]) -> Array:
     """
     Copy a value into a finite, read-only float64 array of the given shape.
 
@@ -40,7 +52,9 @@ def checked(value, shape, name, error):
     return array
 
 
-def checked_number(value, name, error, minimum=None, above=None, below=None):
+def checked_number(value: SupportsFloat, name: str, error: type[ValueError],
+                   minimum: float | None = None, above: float | None = None,
+                   below: float | None = None) -> float:
     """
     Return a finite float inside the stated range; raise ``error`` when it is not.
 
@@ -62,11 +76,11 @@ def checked_number(value, name, error, minimum=None, above=None, below=None):
     return number
 
 
-def frozen(array):
+def frozen(array: NDArray[Scalar]) -> NDArray[Scalar]:
     """Mark an array of our own as read-only and return it (no copy)."""
     array.flags.writeable = False
     return array
 
 
-def _words(shape):
+def _words(shape: tuple[int | None, ...]) -> str:
     return '(' + ', '.join('n' if n is None else str(n) for n in shape) + ')'

@@ -13,6 +13,7 @@ other compiled one: numba's cache would not notice that one's changes.
 
 import math
 
+from grasp_quality.arrays import Array, Bools, Ints
 import numba
 import numpy as np
 
@@ -29,11 +30,13 @@ SHARPNESS = 1e-6     # of rho, in the value of a cell's program
 CENTRE, HALF, POINT = range(3)       # rows of a cell
 WAITING, MADE, BOUNDED = range(3)    # counters: cells in the heap, in the arrays, looked at
 UPPER, PROVED = range(2)             # values: least ratio met, least rho of a finished cell
+# inverse, cost, is_point, points, column, v, new of the simplex method
+Work = tuple[Array, Array, Bools, Array, Array, Array, Array]
 PROVEN, OPEN, HOPELESS = 1, 0, -1
 
 
 @numba.njit(**COMPILE)
-def dot(a, b):
+def dot(a: Array, b: Array) -> float:
     """Sum of products, without a copy."""
     total = 0.0
     for j in range(len(a)):
@@ -42,7 +45,7 @@ def dot(a, b):
 
 
 @numba.njit(**COMPILE)
-def square(D2, v):
+def square(D2: Array, v: Array) -> float:
     """|D v|^2."""
     total = 0.0
     for j in range(len(v)):
@@ -51,7 +54,7 @@ def square(D2, v):
 
 
 @numba.njit(**COMPILE)
-def local(block, v):
+def local(block: Array, v: Array) -> tuple[float, float, float, float]:
     """Worth h_n, h_t1, h_t2, h_m of one contact's coordinates along v."""
     n = a = b = c = 0.0
     for j in range(len(v)):
@@ -63,7 +66,7 @@ def local(block, v):
 
 
 @numba.njit(**COMPILE)
-def support(G, groups, best, worth, v, p):
+def support(G: Array, groups: Ints, best: Ints, worth: Array, v: Array, p: Array) -> float:
     """Return sigma_W(v), with the point p of W that attains it; ``best`` is empty for l2."""
     total = 0.0
     best[:] = -1
@@ -90,7 +93,7 @@ def support(G, groups, best, worth, v, p):
 
 
 @numba.njit(**COMPILE)
-def ratios(G, D2, groups, best, directions, out):
+def ratios(G: Array, D2: Array, groups: Ints, best: Ints, directions: Array, out: Array) -> None:
     """Evaluate sigma_W(v) / |D v| of many directions (N, d)."""
     worth, p = np.empty(len(G)), np.empty(G.shape[2])
     for i in range(len(directions)):
@@ -99,7 +102,7 @@ def ratios(G, D2, groups, best, directions, out):
 
 
 @numba.njit(**COMPILE)
-def least(p, slope, cell):
+def least(p: Array, slope: Array, cell: Array) -> float:
     """Least (p - slope) . v over a cell."""
     total = 0.0
     for j in range(len(p)):
@@ -109,7 +112,8 @@ def least(p, slope, cell):
 
 
 @numba.njit(**COMPILE)
-def begin(slope, rho, cell, inverse, cost, is_point, points):
+def begin(slope: Array, rho: float, cell: Array, inverse: Array, cost: Array, is_point: Bools,
+          points: Array) -> None:
     """Start the simplex method at the cell's point, one slack a coordinate."""
     d = len(slope)
     inverse[:] = 0.0
@@ -124,7 +128,7 @@ def begin(slope, rho, cell, inverse, cost, is_point, points):
 
 
 @numba.njit(**COMPILE)
-def pivot(inverse, column):
+def pivot(inverse: Array, column: Array) -> int:
     """Bring a column into the basis; return the row that it takes, -1 when there is none."""
     leave, step, d = -1, np.inf, inverse.shape[1] - 1
     for r in range(len(column)):
@@ -140,7 +144,8 @@ def pivot(inverse, column):
 
 
 @numba.njit(**COMPILE)
-def prove(G, D2, groups, best, worth, slope, rho, need, cell, values, direction, work):
+def prove(G: Array, D2: Array, groups: Ints, best: Ints, worth: Array, slope: Array, rho: float,
+          need: float, cell: Array, values: Array, direction: Array, work: Work) -> int:
     """
     Look for a point of W that proves the cell, and leave the best one in it.
 
@@ -210,7 +215,7 @@ def prove(G, D2, groups, best, worth, slope, rho, need, cell, values, direction,
 
 
 @numba.njit(**COMPILE)
-def bound_of(D2, cell, m, sag, slack, rho):
+def bound_of(D2: Array, cell: Array, m: float, sag: float, slack: float, rho: float) -> float:
     """Return the largest rho that the cell's point proves (Dinkelbach's iteration)."""
     for _ in range(30):
         over, under = -slack, sag
@@ -229,7 +234,7 @@ def bound_of(D2, cell, m, sag, slack, rho):
 
 
 @numba.njit(**COMPILE)
-def push(heap, size, keys, cell):
+def push(heap: Ints, size: int, keys: Array, cell: int) -> None:
     """Put a cell into the heap of the given size."""
     at = size
     while at > 0 and keys[heap[(at - 1) // 2]] > keys[cell]:
@@ -239,9 +244,10 @@ def push(heap, size, keys, cell):
 
 
 @numba.njit(**COMPILE)
-def pop(heap, size, keys):
+def pop(heap: Ints, size: int, keys: Array) -> int:
     """Take the cell of least key out of the heap of the given size."""
-    first, last, at, child = heap[0], heap[size - 1], 0, 1
+    first: int = heap[0]
+    last, at, child = heap[size - 1], 0, 1
     while child < size - 1:
         if child + 1 < size - 1 and keys[heap[child + 1]] < keys[heap[child]]:
             child += 1
@@ -254,8 +260,9 @@ def pop(heap, size, keys):
 
 
 @numba.njit(**COMPILE)
-def search(G, D2, groups, best, cells, keys, axes, heap, counters, values, direction, width, slack,
-           pops):
+def search(G: Array, D2: Array, groups: Ints, best: Ints, cells: Array, keys: Array, axes: Ints,
+           heap: Ints, counters: Ints, values: Array, direction: Array, width: float, slack: float,
+           pops: int) -> None:
     """
     Halve the worst cells, ``pops`` of them, or until all are proved or the arrays are full.
 

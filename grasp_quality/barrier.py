@@ -13,17 +13,19 @@ alpha_upper - alpha is the price of the margin.
 
 import dataclasses
 from functools import partial
+from typing import cast
 
 from grasp_quality import friction_cone, kernel_solver
-from grasp_quality.arrays import frozen
+from grasp_quality.arrays import Array, Bools, frozen
 from grasp_quality.bounds import gauge, support
 from grasp_quality.centering import weighted_center
 from grasp_quality.exceptions import SolverError
-from grasp_quality.problem import assemble, VirtualContact
-from grasp_quality.proof import GAP_TOLERANCE, held, prove
-from grasp_quality.solution import Status
+from grasp_quality.grasp import Grasp
+from grasp_quality.problem import assemble, ConicProblem, VirtualContact
+from grasp_quality.proof import GAP_TOLERANCE, held, Proof, prove
+from grasp_quality.solution import Solution, Status
 from grasp_quality.solve import prove_optimal, task_share
-from grasp_quality.time_limit import TimeLimit
+from grasp_quality.time_limit import Limit, TimeLimit
 import numpy as np
 
 # weights of what eq. (11) gives none; a cone's edge is only as sharp as rounding, which goes by
@@ -35,7 +37,8 @@ INTERIOR_TOLERANCE = 1e-8  # share of the caps below which a force is not strict
 CONE_GENERATORS = 16       # of a task cone, where only its polyhedral inside can be asked
 
 
-def with_margin(problem, solution, barrier_weight, time_limit_s=None):
+def with_margin(problem: ConicProblem, solution: Solution, barrier_weight: float,
+                time_limit_s: Limit = None) -> Solution:
     """
     Trade alpha of a solved task for friction margin.
 
@@ -70,7 +73,7 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
         forces = frozen(shares * grasp.force_units)
         proof = prove(problem, shares, values, multipliers)
         objective = values[0] + eps * _log_det(grasp, shares).sum()
-        upper = objective_upper(problem, multipliers, eps, solution.proof)
+        upper = objective_upper(problem, multipliers, eps, cast(Proof, solution.proof))
         gap = (upper - objective) / max(values[0], eps, 1e-3 * proof.size)
         if gap <= GAP_TOLERANCE and dataclasses.replace(proof, upper=proof.objective).holds:
             alpha, wrench = task_share(problem, values, solution.alpha_upper)
@@ -90,15 +93,17 @@ def with_margin(problem, solution, barrier_weight, time_limit_s=None):
         'or 0', problem, 'centering failed' if center is None else f'gap {gap:.2g}, {proof}')
 
 
-def _frictional(grasp):
-    return (grasp.scales[:, (0, 1, 3)] > 0.0).any(axis=1)
+def _frictional(grasp: Grasp) -> Bools:
+    frictional: Bools = np.any(grasp.scales[:, (0, 1, 3)] > 0.0, axis=1)
+    return frictional
 
 
-def _log_det(grasp, shares):
+def _log_det(grasp: Grasp, shares: Array) -> Array:
     return friction_cone.log_det(shares, (grasp.scales > 0.0).astype(np.float64))
 
 
-def _center(problem, eps, with_task, limit):
+def _center(problem: ConicProblem, eps: float, with_task: bool,
+            limit: TimeLimit | None) -> tuple[Array, Array, Array] | None:
     """
     Find the weighted centre: forces as shares (k, 4), values (t,) and multipliers, or None.
 
@@ -122,7 +127,8 @@ def _center(problem, eps, with_task, limit):
     return shares / excess, values, multipliers
 
 
-def _general_center(problem, eps, with_task, limit):
+def _general_center(problem: ConicProblem, eps: float, with_task: bool,
+                    limit: TimeLimit | None) -> tuple[Array, Array, Array] | None:
     """Weighted centre of any problem, by ``centering``."""
     layout = problem.layout
     blocks = layout.blocks  # (blocks, d), -1 where padded
@@ -145,7 +151,7 @@ def _general_center(problem, eps, with_task, limit):
     return layout.shares(u), u[layout.virtual], found[1]
 
 
-def objective_upper(problem, multipliers, eps, proof):
+def objective_upper(problem: ConicProblem, multipliers: Array, eps: float, proof: Proof) -> float:
     """
     Bound the objective of eq. (11), in scaled units, by its Lagrangian dual in closed form.
 
@@ -183,11 +189,13 @@ def objective_upper(problem, multipliers, eps, proof):
     each = np.where(frictional, np.log(4.0 * eps ** 2 / ((s - rest) * (s + rest))) - 2.0,
                     np.log(eps / s) - 1.0)
     joints = 0.0 if grasp.joint_rows is None else grasp.joint_rows.cost(mu, np.abs(mu))
-    return (support(nu, grasp.bound, grasp.groups) + lambda_ @ problem.scaled_external_wrench
-            + joints + eps * each.sum())
+    upper: float = (
+        support(nu, grasp.bound, grasp.groups) + lambda_ @ problem.scaled_external_wrench
+        + joints + eps * each.sum())
+    return upper
 
 
-def has_interior(problem, time_limit_s=None):
+def has_interior(problem: ConicProblem, time_limit_s: Limit = None) -> bool:
     """
     Tell whether some force strictly inside all cones serves the task, alpha >= 0 left open.
 

@@ -9,21 +9,29 @@ compiled code that releases the lock: unlike numba's own parallel loops these ma
 several threads and in forked processes.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import os
 from threading import Lock, Thread
+from typing import TypeVar
 
 from grasp_quality import judge, kernel, kernel_solver, proof
+from grasp_quality.arrays import Array, Bools, Codes, Ints
 from grasp_quality.barrier import NEGLIGIBLE
+from grasp_quality.grasp import Grasp
 from grasp_quality.infeasibility import INFEASIBILITY_TOLERANCE
 from grasp_quality.problem import build_problem, NO_WRENCH
 from grasp_quality.scaled import Scaled
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskWrench
-from grasp_quality.time_limit import TimeLimit
+from grasp_quality.time_limit import Limit, TimeLimit
 from grasp_quality.wrench import as_wrench
 import numpy as np
+from numpy.typing import ArrayLike
 
+Part = TypeVar('Part')
 AT_ONCE = 256  # problems that a core solves between two looks at the time limit
 SMALL = 128  # problems that are not worth a thread
 TOLERANCES = (
@@ -48,13 +56,14 @@ class Batch:
 
     """
 
-    alpha: np.ndarray
-    feasible: np.ndarray
-    forces: np.ndarray
+    alpha: Array
+    feasible: Bools
+    forces: Array | None
     handed_over: int
 
 
-def solve_wrenches(grasp, wrenches, external_wrench=None, time_limit_s=None, forces=True):
+def solve_wrenches(grasp: Grasp, wrenches: Array, external_wrench: ArrayLike | None = None,
+                   time_limit_s: Limit = None, forces: bool = True) -> Batch:
     """
     Find the largest alpha of every task wrench.
 
@@ -88,7 +97,7 @@ def solve_wrenches(grasp, wrenches, external_wrench=None, time_limit_s=None, for
         scaled = Scaled.of(grasp)
         loads = np.broadcast_to(load, (count, 6))
 
-        def job(part):
+        def job(part: slice) -> None:
             solve_part(scaled, np.zeros(len(wrenches[part]), np.int64), wrenches[part],
                        loads[part], answers.part(part))
 
@@ -108,24 +117,25 @@ def solve_wrenches(grasp, wrenches, external_wrench=None, time_limit_s=None, for
 class Answers:
     """Arrays that answers are written into: alpha, upper, status (N,), forces (N or 0, k, 4)."""
 
-    alpha: np.ndarray
-    upper: np.ndarray
-    status: np.ndarray
-    forces: np.ndarray
+    alpha: Array
+    upper: Array
+    status: Codes
+    forces: Array
 
     @classmethod
-    def empty(cls, count, contacts):
+    def empty(cls, count: int, contacts: int) -> Answers:
         """Nothing proved yet; no forces where there are no contacts to have them."""
         return cls(np.zeros(count), np.full(count, np.inf),
                    np.full(count, judge.UNPROVED, np.int8),
                    np.zeros((count if contacts else 0, contacts, 4)))
 
-    def part(self, rows):
+    def part(self, rows: slice) -> Answers:
         """View some rows."""
         return Answers(self.alpha[rows], self.upper[rows], self.status[rows], self.forces[rows])
 
 
-def solve_part(scaled, which, wrenches, loads, answers, barrier_weight=0.0):
+def solve_part(scaled: Scaled, which: Ints, wrenches: Array, loads: Array, answers: Answers,
+               barrier_weight: float = 0.0) -> None:
     """
     Solve and judge some problems on this thread.
 
@@ -162,7 +172,7 @@ def solve_part(scaled, which, wrenches, loads, answers, barrier_weight=0.0):
         idle = answers.upper * sizes <= NEGLIGIBLE * scaled.reaches[which]
         before[idle & (before == judge.OPTIMAL)] = judge.UNPROVED  # alpha has no inside
         rest = before != judge.OPTIMAL
-        frictional = (scaled.units[:, :, (0, 1, 3)] > 0.0).any(axis=2)[which]  # (N, k)
+        frictional = np.any(scaled.units[:, :, (0, 1, 3)] > 0.0, axis=2)[which]  # (N, k)
         weights = np.where(frictional, 1.0, 0.5) * (barrier_weight * sizes)[:, None]
         kernel.solve_many(*problem, 1.0, weights, answers.alpha, shares, multipliers, nus,
                           answers.status)
@@ -174,11 +184,13 @@ def solve_part(scaled, which, wrenches, loads, answers, barrier_weight=0.0):
             answers.forces[rest] = 0.0
 
 
-def on_all_cores(job, parts, problems, limit=None):
+def on_all_cores(job: Callable[[Part], None], parts: Sequence[Part], problems: int,
+                 limit: TimeLimit | None = None) -> None:
     """Run job(part) for all parts, on threads of their own where there are many problems."""
-    waiting, lock, errors = iter(parts), Lock(), []
+    waiting, lock = iter(parts), Lock()
+    errors: list[BaseException] = []
 
-    def work():
+    def work() -> None:
         while not errors:
             with lock:
                 part = next(waiting, None)

@@ -8,13 +8,16 @@ Contacts are partitioned into groups, and each group obeys sum_i n_i / f_max,i <
 Euclidean norm of all n_i / f_max,i instead (the paper's norms on the normals, section II).
 """
 
+from collections.abc import Sequence
+
+from grasp_quality.arrays import Array
 from grasp_quality.exceptions import InvalidGraspError
 import numpy as np
 
 BOUNDS = ('l1', 'l2', 'linf', 'finger')
 
 
-def groups_of(bound, fingers):
+def groups_of(bound: str, fingers: Sequence[str]) -> tuple[int, ...]:
     """
     Partition the contacts.
 
@@ -45,14 +48,14 @@ def groups_of(bound, fingers):
     return tuple(order[finger] for finger in fingers)
 
 
-def group_maxima(values, groups):
+def group_maxima(values: Array, groups: tuple[int, ...]) -> Array:
     """Largest value of each group, (number of groups,)."""
     largest = np.full(max(groups) + 1, -np.inf)
     np.maximum.at(largest, list(groups), values)
     return largest
 
 
-def gauge(shares, bound, groups):
+def gauge(shares: Array, bound: str, groups: tuple[int, ...]) -> float:
     """
     Smallest factor by which the bound must be widened to admit the normals.
 
@@ -77,7 +80,7 @@ def gauge(shares, bound, groups):
     return float(np.bincount(groups, weights=shares).max())
 
 
-def support(values, bound, groups):
+def support(values: Array, bound: str, groups: tuple[int, ...]) -> float:
     """
     Largest sum_i values_i n_i / f_max,i over all normals n >= 0 inside the bound.
 

@@ -12,6 +12,9 @@ rows x rows a step. Clarabel states the same with exponential cones, but an obje
 proved to 1e-9 fixes a smooth optimum only to the square root of that (docs/decisions.md).
 """
 
+from collections.abc import Callable
+
+from grasp_quality.arrays import Array
 from grasp_quality.cone_algebra import (
     determinant, divide, is_interior, largest_step, product, Scaling)
 import numpy as np
@@ -27,7 +30,9 @@ RANK_TOLERANCE = 1e-9
 
 
 @np.errstate(over='ignore', invalid='ignore', divide='ignore')  # where there is no centre
-def weighted_center(E, e, c, weights, start=None, on_step=None):
+def weighted_center(E: Array, e: Array, c: Array, weights: Array,
+                    start: tuple[Array, Array] | None = None,
+                    on_step: Callable[[], object] | None = None) -> tuple[Array, Array] | None:
     """
     Find the weighted centre.
 
@@ -108,7 +113,7 @@ def weighted_center(E, e, c, weights, start=None, on_step=None):
         u, x, z = u + step * du, x + step * dx, z + step * dz
         if not (is_interior(u) and is_interior(z)):
             break
-    if best_distance > ACCEPTED:
+    if best is None or best_distance > ACCEPTED:
         return None
     u, x = best
     return u, range_of_E @ (x / singular[kept])

@@ -11,10 +11,15 @@ leaves here as a SolverError with the problem attached.
 """
 
 from functools import lru_cache
+from typing import Any
 
 import clarabel
+from grasp_quality.arrays import Array
 from grasp_quality.exceptions import SolverError, SolverTimeoutError
+from grasp_quality.layout import Cones
+from grasp_quality.problem import ConicProblem
 from grasp_quality.raw_answer import RawAnswer
+from grasp_quality.time_limit import TimeLimit
 import numpy as np
 from scipy.sparse import csc_matrix
 
@@ -29,7 +34,7 @@ ATTEMPTS = (
 CONES = {'nonnegative': clarabel.NonnegativeConeT, 'second_order': clarabel.SecondOrderConeT}
 
 
-def run(problem, attempt=0, limit=None):
+def run(problem: ConicProblem, attempt: int = 0, limit: TimeLimit | None = None) -> RawAnswer:
     """
     Solve a ConicProblem once.
 
@@ -57,11 +62,13 @@ def run(problem, attempt=0, limit=None):
         shape=(variables, rows))
     u, multipliers, status = run_matrices(
         _zeros(rows), problem.e, matrix, -problem.c, _cones(problem.cones),
-        solver_settings(attempt, limit and limit.remaining_s(problem)), problem)
+        solver_settings(attempt, None if limit is None else limit.remaining_s(problem)), problem)
     return RawAnswer(problem.layout.shares(u), u[problem.layout.virtual], multipliers, status)
 
 
-def run_matrices(P, q, A, b, cones, settings, problem):
+def run_matrices(P: csc_matrix, q: Array, A: csc_matrix, b: Array, cones: list[Any],
+                 settings: clarabel.DefaultSettings,
+                 problem: ConicProblem) -> tuple[Array, Array, str]:
     """Hand matrices to Clarabel for (z, x, status); ``problem`` is what a SolverError carries."""
     try:
         solution = clarabel.DefaultSolver(P, q, A, b, cones, settings).solve()
@@ -77,16 +84,16 @@ def run_matrices(P, q, A, b, cones, settings, problem):
 
 
 @lru_cache(maxsize=256)
-def _zeros(size):
+def _zeros(size: int) -> csc_matrix:
     return csc_matrix((size, size))
 
 
 @lru_cache(maxsize=256)
-def _cones(cones):
+def _cones(cones: Cones) -> list[Any]:
     return [CONES[kind](size) for kind, size in cones]
 
 
-def solver_settings(attempt, time_limit_s):
+def solver_settings(attempt: int, time_limit_s: float | None) -> clarabel.DefaultSettings:
     """Build settings of one of ``ATTEMPTS``."""
     settings = clarabel.DefaultSettings()
     settings.verbose = False

@@ -11,8 +11,10 @@ forces inside the cones, as the virtual contact; the joints' limits shrink by th
 
 from dataclasses import dataclass
 
+from grasp_quality.grasp import Grasp
 from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.solve import prove_optimal
+from grasp_quality.time_limit import Limit
 import numpy as np
 
 MARGIN_TOLERANCE = 1e-8  # share of the caps below which an internal force is not strict
@@ -40,7 +42,7 @@ class ForceClosure:
     margin: float
 
 
-def force_closure(grasp, time_limit_s=None):
+def force_closure(grasp: Grasp, time_limit_s: Limit = None) -> ForceClosure:
     """
     Decide force closure, with its margin.
 

@@ -8,12 +8,16 @@ three models nest: FPC transmits n >= 0; PCWF adds |t| <= mu n; SFCE couples the
 with a moment about the normal, |t|^2 / mu^2 + m_n^2 / gamma^2 <= n^2 (the paper, section II).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 import enum
+from typing import TYPE_CHECKING
 
-from grasp_quality.arrays import checked, checked_number, frozen
+from grasp_quality.arrays import Array, checked, checked_number, frozen
 from grasp_quality.exceptions import InvalidContactError
 import numpy as np
+from numpy.typing import ArrayLike
 
 FARTHEST = 1e3  # [m], of any coordinate: one far contact would drown the others' torques
 IDENTITY = frozen(np.eye(3))
@@ -58,21 +62,28 @@ class Contact:
 
     """
 
-    position: np.ndarray
-    normal: np.ndarray = None
+    position: Array
+    normal: Array = None  # type: ignore[assignment]  # never None once made
     model: ContactModel = ContactModel.PCWF
     friction: float = 0.5
     torsional_friction: float = 0.0
     max_normal_force: float = 1.0
     name: str = ''
     finger: str = ''
-    rotation: np.ndarray = None
+    rotation: Array = None  # type: ignore[assignment]  # never None once made
 
-    def __post_init__(self):
+    if TYPE_CHECKING:  # anything like an array may be given
+        def __init__(self, position: ArrayLike, normal: ArrayLike | None = None,
+                     model: ContactModel = ContactModel.PCWF, friction: float = 0.5,
+                     torsional_friction: float = 0.0, max_normal_force: float = 1.0,
+                     name: str = '', finger: str = '', rotation: ArrayLike | None = None) -> None:
+            ...
+
+    def __post_init__(self) -> None:
         """Validate, copy and complete the fields."""
         label = f'contact {self.name!r}: ' if self.name else 'contact: '
 
-        def put(field, value):
+        def put(field: str, value: object) -> None:
             object.__setattr__(self, field, value)
 
         put('position', checked(self.position, (3,), label + 'position', InvalidContactError))
@@ -92,7 +103,7 @@ class Contact:
         put('max_normal_force', checked_number(
             self.max_normal_force, label + 'max_normal_force', InvalidContactError, above=0.0))
 
-    def _frame(self, label):
+    def _frame(self, label: str) -> Array:
         if (self.normal is None) == (self.rotation is None):
             raise InvalidContactError(
                 f'{label}give exactly one of normal and rotation, got '
@@ -111,17 +122,17 @@ class Contact:
         return rotation
 
     @property
-    def effective_friction(self):
+    def effective_friction(self) -> float:
         """Coulomb coefficient that the model lets act: 0 for FPC."""
         return 0.0 if self.model is ContactModel.FPC else self.friction
 
     @property
-    def effective_torsional_friction(self):
+    def effective_torsional_friction(self) -> float:
         """Torsional coefficient [m] that the model lets act: 0 but for SFCE."""
         return self.torsional_friction if self.model is ContactModel.SFCE else 0.0
 
 
-def frame_from_normal(normal, label=''):
+def frame_from_normal(normal: Array, label: str = '') -> Array:
     """
     Build R_object_contact (3, 3) from an inward normal of any length but zero.
 

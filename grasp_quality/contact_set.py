@@ -7,18 +7,22 @@ The same facts as a list of Contact objects, checked all at once: building eight
 takes longer than solving their problem. Indexing gives a Contact, slicing a ContactSet.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from __future__ import annotations
 
-from grasp_quality.arrays import checked, frozen
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import NoReturn, overload, TYPE_CHECKING
+
+from grasp_quality.arrays import Array, Bools, checked, frozen
 from grasp_quality.contact import (
     Contact, ContactModel, FARTHEST, IDENTITY, ROTATION_TOLERANCE)
 from grasp_quality.exceptions import InvalidContactError, InvalidGraspError
 import numpy as np
+from numpy.typing import ArrayLike
 
 
 @dataclass(frozen=True, eq=False)
-class ContactSet(Sequence):
+class ContactSet(Sequence[Contact]):
     """
     Contacts in the object frame; each row is one contact.
 
@@ -38,16 +42,22 @@ class ContactSet(Sequence):
 
     """
 
-    positions: np.ndarray
-    rotations: np.ndarray
-    models: tuple
-    friction: np.ndarray
-    torsional_friction: np.ndarray
-    max_normal_forces: np.ndarray
-    names: tuple
-    fingers: tuple
+    positions: Array
+    rotations: Array
+    models: tuple[ContactModel, ...]
+    friction: Array
+    torsional_friction: Array
+    max_normal_forces: Array
+    names: tuple[str, ...]
+    fingers: tuple[str, ...]
 
-    def __post_init__(self):
+    if TYPE_CHECKING:  # anything like an array may be given
+        def __init__(self, positions: ArrayLike, rotations: ArrayLike,
+                     models: Sequence[ContactModel], friction: ArrayLike,
+                     torsional_friction: ArrayLike, max_normal_forces: ArrayLike,
+                     names: Sequence[str], fingers: Sequence[str]) -> None: ...
+
+    def __post_init__(self) -> None:
         """Validate and copy."""
         k = len(self.names)
         for field, shape in (('positions', (k, 3)), ('rotations', (k, 3, 3)), ('friction', (k,)),
@@ -61,7 +71,7 @@ class ContactSet(Sequence):
         if k:
             self._check()
 
-    def _check(self):
+    def _check(self) -> None:
         R = self.rotations
         skew = np.abs(R.transpose(0, 2, 1) @ R - IDENTITY)
         if skew.max() > ROTATION_TOLERANCE or np.linalg.det(R).min() < 0.0:
@@ -81,7 +91,7 @@ class ContactSet(Sequence):
             self._refuse([not isinstance(model, ContactModel) for model in self.models],
                          f'model must be one of {[str(m) for m in ContactModel]}')
 
-    def _refuse(self, broken, rule):
+    def _refuse(self, broken: Bools | list[bool], rule: str) -> NoReturn:
         i = int(np.flatnonzero(broken)[0])
         raise InvalidContactError(
             f'contact {i} ({self.names[i]!r}): {rule}, got position '
@@ -91,7 +101,7 @@ class ContactSet(Sequence):
             f'rotation {self.rotations[i].tolist()}')
 
     @classmethod
-    def of(cls, contacts):
+    def of(cls, contacts: Iterable[Contact]) -> ContactSet:
         """Stack Contact objects."""
         return cls(
             np.array([c.position for c in contacts]).reshape(-1, 3),
@@ -100,7 +110,7 @@ class ContactSet(Sequence):
             [c.torsional_friction for c in contacts], [c.max_normal_force for c in contacts],
             [c.name for c in contacts], [c.finger for c in contacts])
 
-    def subset(self, indices):
+    def subset(self, indices: Iterable[int]) -> ContactSet:
         """Return the contacts at these indices, in their order, as another ContactSet."""
         rows = list(indices)
         return ContactSet(
@@ -109,20 +119,26 @@ class ContactSet(Sequence):
             [self.names[i] for i in rows], [self.fingers[i] for i in rows])
 
     @property
-    def effective_friction(self):
+    def effective_friction(self) -> Array:
         """Coulomb coefficients (k,) [-] that the models let act: 0 for FPC."""
         return frozen(self.friction * [m is not ContactModel.FPC for m in self.models])
 
     @property
-    def effective_torsional_friction(self):
+    def effective_torsional_friction(self) -> Array:
         """Torsional coefficients (k,) [m] that the models let act: 0 but for SFCE."""
         return frozen(self.torsional_friction * [m is ContactModel.SFCE for m in self.models])
 
-    def __len__(self):
+    def __len__(self) -> int:
         """Count the contacts."""
         return len(self.names)
 
-    def __getitem__(self, index):
+    @overload
+    def __getitem__(self, index: int) -> Contact: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> ContactSet: ...
+
+    def __getitem__(self, index: int | slice) -> Contact | ContactSet:
         """Return one contact as a Contact, or a slice of them as a ContactSet."""
         if isinstance(index, slice):
             return self.subset(range(len(self))[index])
@@ -134,7 +150,7 @@ class ContactSet(Sequence):
             finger=self.fingers[index])
 
 
-def as_contact_set(contacts):
+def as_contact_set(contacts: Iterable[Contact]) -> ContactSet:
     """Return a ContactSet of a sequence of Contact objects, or the set that was given."""
     if isinstance(contacts, ContactSet):
         return contacts

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sets of directions to draw a map of the wrench space with."""
 
-from grasp_quality.arrays import frozen
+from grasp_quality.arrays import Array, frozen
 from grasp_quality.exceptions import InvalidTaskError
 import numpy as np
 
 
-def force_grid(resolution):
+def force_grid(resolution: int) -> Array:
     """
     Spread forces around the unit ball, as the paper's Fig. 3b.
 

@@ -7,6 +7,13 @@ Input errors are ValueErrors too, so that callers who do not know this library c
 Each message names the value, the rule that it breaks and the way out.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from grasp_quality.problem import ConicProblem
+
 
 class GraspQualityError(Exception):
     """Base of everything that this library raises on purpose."""
@@ -33,7 +40,8 @@ class SolverError(GraspQualityError, RuntimeError):
 
     """
 
-    def __init__(self, message, problem=None, status=''):
+    def __init__(self, message: str, problem: ConicProblem | None = None,
+                 status: str = '') -> None:
         super().__init__(message)
         self.problem = problem
         self.status = status

@@ -31,7 +31,8 @@ def paragraph(solution: Solution, unique: Uniqueness, limits: tuple[str, ...], s
     words = [f'The grasp applies {solution.alpha:.4g} times the task.']
     order = [int(i) for i in np.argsort(-shares) if limits[i]]
     listed = [f'{grasp.name_of(i)} {WAYS[limits[i]]} ({100.0 * shares[i]:.0f} %)' for i in order]
-    listed += [f'{grasp.joint_limits.names[j]} {WAYS["joint"]} ({100.0 * joint_shares[j]:.0f} %)'
+    joints = () if grasp.joint_limits is None else grasp.joint_limits.names
+    listed += [f'{joints[j]} {WAYS["joint"]} ({100.0 * joint_shares[j]:.0f} %)'
                for j in np.argsort(-joint_shares) if joint_shares[j] > NEGLIGIBLE]
     if listed:
         words.append(f'It is limited by {", ".join(listed)}.')

@@ -8,12 +8,13 @@ Local coordinates are [t1, t2, n, m_n] in the contact frame. Dividing them by
 |(t1', t2', m')| <= n; a coordinate whose coefficient is zero can carry nothing and drops out.
 """
 
+from grasp_quality.arrays import Array
 import numpy as np
 
 UNLOADED = 1e-6  # share of f_max below which a contact counts as not loaded
 
 
-def coordinate_scales(friction, torsional_friction):
+def coordinate_scales(friction: Array, torsional_friction: Array) -> Array:
     """Return [mu, mu, 1, gamma] of every contact, (k, 4) [-, -, -, m]."""
     scales = np.ones((len(friction), 4))
     scales[:, 0] = scales[:, 1] = friction
@@ -21,7 +22,7 @@ def coordinate_scales(friction, torsional_friction):
     return scales
 
 
-def tangential_norm(local, scales):
+def tangential_norm(local: Array, scales: Array) -> Array:
     """
     Norm |(t1/mu, t2/mu, m_n/gamma)| of every contact, (k,) [N].
 
@@ -32,10 +33,12 @@ def tangential_norm(local, scales):
     weights = scales[:, (0, 1, 3)]
     with np.errstate(divide='ignore', invalid='ignore'):
         scaled = np.where(carried == 0.0, 0.0, np.abs(carried) / weights)
-    return np.sqrt((scaled * scaled).sum(axis=1))
+    norm: Array = np.sqrt((scaled * scaled).sum(axis=1))
+    return norm
 
 
-def usage(forces, scales, max_normal_force, unloaded=UNLOADED):
+def usage(forces: Array, scales: Array, max_normal_force: Array,
+          unloaded: float = UNLOADED) -> Array:
     """
     Share of the friction cone in use, (k,): 0 at the axis, 1 at slip, more outside.
 
@@ -56,7 +59,7 @@ def usage(forces, scales, max_normal_force, unloaded=UNLOADED):
     return _share(norm, normal, unloaded * max_normal_force)
 
 
-def usage_of_shares(shares, unloaded=UNLOADED):
+def usage_of_shares(shares: Array, unloaded: float = UNLOADED) -> Array:
     """
     Share of the friction cone in use, (..., k), as ``usage``.
 
@@ -73,13 +76,13 @@ def usage_of_shares(shares, unloaded=UNLOADED):
     return _share(norm, shares[..., 2], unloaded)
 
 
-def _share(norm, normal, small):
-    share = np.divide(norm, normal, where=normal > 0.0, out=np.full(norm.shape, np.inf))
+def _share(norm: Array, normal: Array, small: Array | float) -> Array:
+    share: Array = np.divide(norm, normal, where=normal > 0.0, out=np.full(norm.shape, np.inf))
     share[np.maximum(np.abs(normal), norm) <= small] = 0.0
     return share
 
 
-def support(local_wrench, scales):
+def support(local_wrench: Array, scales: Array | float) -> Array:
     """
     Largest work h . x over each cone at normal force one, (k,).
 
@@ -98,7 +101,7 @@ def support(local_wrench, scales):
     return h[:, 2] + np.sqrt(h[:, 0] ** 2 + h[:, 1] ** 2 + h[:, 3] ** 2)
 
 
-def log_det(forces, scales):
+def log_det(forces: Array, scales: Array) -> Array:
     """
     Log-determinant of every contact's cone matrix P_i, up to a constant, (k,).
 

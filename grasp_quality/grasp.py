@@ -7,17 +7,22 @@ G, the grasp matrix (eq. 4), maps the local forces [t1, t2, n, m_n] of all conta
 on the object about the object frame's origin. Everything derived is computed once and cached.
 """
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 from functools import cached_property
 import math
+from typing import TYPE_CHECKING
 
 from grasp_quality import bounds
-from grasp_quality.arrays import frozen
+from grasp_quality.arrays import Array, frozen, Ints
+from grasp_quality.contact import Contact
 from grasp_quality.contact_set import as_contact_set, ContactSet
 from grasp_quality.exceptions import InvalidGraspError
 from grasp_quality.friction_cone import coordinate_scales
 from grasp_quality.joint_limits import check_limits, JointLimits, JointRows
-from grasp_quality.wrench import shift, skew
+from grasp_quality.wrench import matrix_of, shift
 import numpy as np
 
 MAX_CAP_RATIO = 1e6   # between the caps of one grasp
@@ -48,9 +53,14 @@ class Grasp:
 
     contacts: ContactSet
     bound: str = 'linf'
-    joint_limits: JointLimits = None
+    joint_limits: JointLimits | None = None
 
-    def __post_init__(self):
+    if TYPE_CHECKING:
+        groups: tuple[int, ...] = field(init=False)  # of the bound, one a contact
+        def __init__(self, contacts: Iterable[Contact], bound: str = 'linf',
+                     joint_limits: JointLimits | None = None) -> None: ...
+
+    def __post_init__(self) -> None:
         """Validate and freeze."""
         contacts = as_contact_set(self.contacts)
         if not len(contacts):
@@ -68,57 +78,57 @@ class Grasp:
         object.__setattr__(self, 'contacts', contacts)
         object.__setattr__(self, 'groups', bounds.groups_of(self.bound, contacts.fingers))
 
-    def __len__(self):
+    def __len__(self) -> int:
         """Count the contacts."""
         return len(self.contacts)
 
     @cached_property
-    def names(self):
+    def names(self) -> tuple[str, ...]:
         """Name of every contact; 'contact_<index>' where none was given."""
         return tuple(self.name_of(i) for i in range(len(self)))
 
-    def name_of(self, index):
+    def name_of(self, index: int) -> str:
         """Return the name of one contact."""
         return self.contacts.names[index] or f'contact_{index}'
 
     @property
-    def positions(self):
+    def positions(self) -> Array:
         """Contact points (k, 3) [m] in the object frame."""
         return self.contacts.positions
 
     @property
-    def rotations(self):
+    def rotations(self) -> Array:
         """R_object_contact of every contact (k, 3, 3); columns t1, t2, inward normal."""
         return self.contacts.rotations
 
     @property
-    def max_normal_forces(self):
+    def max_normal_forces(self) -> Array:
         """Caps f_max (k,) [N]."""
         return self.contacts.max_normal_forces
 
     @cached_property
-    def scales(self):
+    def scales(self) -> Array:
         """Cone scales [mu, mu, 1, gamma] (k, 4) that the contact models let act."""
         return frozen(coordinate_scales(
             self.contacts.effective_friction, self.contacts.effective_torsional_friction))
 
     @cached_property
-    def matrix(self):
+    def matrix(self) -> Array:
         """Grasp matrix G (6, k, 4), eq. (4): local forces to object wrench about the origin."""
-        return frozen(self._matrix_about(self.positions))
+        return frozen(matrix_of(self.positions, self.rotations))
 
     @cached_property
-    def centered_matrix(self):
+    def centered_matrix(self) -> Array:
         """Grasp matrix (6, k, 4) with torques about ``center``."""
-        return frozen(self._matrix_about(self.positions - self.center))
+        return frozen(matrix_of(self.positions - self.center, self.rotations))
 
     @cached_property
-    def center(self):
+    def center(self) -> Array:
         """Mean of the contact points (3,) [m]: the reference point of the scaled problem."""
         return frozen(self.positions.sum(axis=0) / len(self))
 
     @cached_property
-    def lever_arm(self):
+    def lever_arm(self) -> float:
         """
         Length scale of the grasp [m]: largest distance of a contact from their mean.
 
@@ -135,7 +145,7 @@ class Grasp:
         return float(self.scales[:, 3].max()) or away or 1.0
 
     @cached_property
-    def scaled_matrix(self):
+    def scaled_matrix(self) -> Array:
         """
         Dimensionless grasp matrix (6, k, 4).
 
@@ -148,13 +158,13 @@ class Grasp:
         return frozen(G)
 
     @cached_property
-    def joint_rows(self):
+    def joint_rows(self) -> JointRows | None:
         """Joint limits in scaled units, JointRows; None without limits."""
         return None if self.joint_limits is None else JointRows(
             self.joint_limits, self.force_units)
 
     @cached_property
-    def work_matrix(self):
+    def work_matrix(self) -> Array:
         """
         Worth of every share for unit multipliers, (6, 4 k), or (6 + j, 4 k) with joint limits.
 
@@ -162,15 +172,16 @@ class Grasp:
 
         """
         G = self.scaled_matrix.reshape(6, -1)
-        return G if self.joint_limits is None else frozen(np.vstack([G, -self.joint_rows.A]))
+        joints = self.joint_rows
+        return G if joints is None else frozen(np.vstack([G, -joints.A]))
 
     @property
-    def rests(self):
+    def rests(self) -> bool:
         """Whether no contact force at all is admissible: the joints can carry the hand itself."""
         return self.joint_limits is None or self.joint_limits.holds_itself
 
     @cached_property
-    def blocks(self):
+    def blocks(self) -> tuple[Array, Array, Ints]:
         """
         Scaled grasp matrix as the kernel takes it.
 
@@ -185,33 +196,32 @@ class Grasp:
         return G, G.transpose(0, 2, 1) @ signed, np.array(self.groups)
 
     @cached_property
-    def force_units(self):
+    def force_units(self) -> Array:
         """Local forces (k, 4) [N, N, N, N m] that a share of one stands for."""
         return frozen(self.scales * self.max_normal_forces[:, None])
 
-    def shares(self, forces):
+    def shares(self, forces: Array) -> Array:
         """Local forces (k, 4) as shares [t1/mu, t2/mu, n, m_n/gamma] / f_max."""
         units = self.force_units
         return np.divide(forces, units, where=units > 0.0, out=np.zeros((len(self), 4)))
 
     @cached_property
-    def force_scale(self):
+    def force_scale(self) -> float:
         """Force scale of the grasp [N]: the largest cap."""
         return float(self.max_normal_forces.max())
 
     @cached_property
-    def cap_total(self):
+    def cap_total(self) -> float:
         """Largest sum of normals that the bound allows, as a share of the largest cap."""
-        return bounds.support(
-            self.max_normal_forces / self.force_scale, self.bound, self.groups)
+        return bounds.support(self.max_normal_forces / self.force_scale, self.bound, self.groups)
 
     @cached_property
-    def least_cap(self):
+    def least_cap(self) -> float:
         """Smallest cap as a share of the largest."""
         return float(self.max_normal_forces.min()) / self.force_scale
 
     @cached_property
-    def span(self):
+    def span(self) -> Array:
         """Orthonormal basis (6, rank) of the wrenches that unbounded forces could span."""
         G = self.scaled_matrix.reshape(6, -1)
         norms = np.sqrt((G * G).sum(axis=0))
@@ -219,30 +229,22 @@ class Grasp:
         return U[:, s > RANK_TOLERANCE * s[0]]
 
     @property
-    def rank(self):
+    def rank(self) -> int:
         """Rank of the grasp matrix, 1 to 6."""
-        return self.span.shape[1]
+        return int(self.span.shape[1])
 
-    def spans(self, wrench):
+    def spans(self, wrench: Array) -> bool:
         """Tell whether forces of any sign and size could produce this wrench (6,)."""
         w = self.scaled_wrench(wrench)
         rest = w - self.span @ (self.span.T @ w)
         return bool(np.sqrt(rest @ rest) <= RANK_TOLERANCE * np.sqrt(w @ w))
 
-    def scaled_wrench(self, wrench):
+    def scaled_wrench(self, wrench: Array) -> Array:
         """Wrenches (..., 6) about ``center``, as shares of force scale and lever arm."""
         scaled = shift(wrench, self.center) / self.force_scale
         scaled[..., 3:] /= self.lever_arm
         return scaled
 
-    def wrench(self, forces):
+    def wrench(self, forces: Array) -> Array:
         """Return G x (6,) [N, N m]: the object wrench of local forces (k, 4) about the origin."""
-        return np.einsum('ijk,jk->i', self.matrix, forces)
-
-    def _matrix_about(self, positions):
-        R = self.rotations
-        G = np.zeros((6, len(self.contacts), 4))
-        G[:3, :, :3] = R.transpose(1, 0, 2)
-        G[3:, :, :3] = (skew(positions) @ R).transpose(1, 0, 2)
-        G[3:, :, 3] = R[:, :, 2].T
-        return G
+        return np.asarray(np.einsum('ijk,jk->i', self.matrix, forces))

@@ -119,8 +119,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
     def of(cls, grasps: Iterable[Grasp]) -> GraspSet:
         """Stack Grasp objects."""
         grasps = list(grasps)
-        strangers = [g for g in grasps if not isinstance(g, Grasp) or g.joint_limits]
-        if strangers:
+        if strangers := [g for g in grasps if not isinstance(g, Grasp) or g.joint_limits]:
             raise InvalidGraspError(
                 f'grasps must be Grasp objects without joint_limits, got {strangers[0]!r}')
         if not grasps:
@@ -131,7 +130,8 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
             np.concatenate([g.positions for g in grasps]),
             np.concatenate([g.rotations for g in grasps]), scales[:, 0], scales[:, 3],
             np.concatenate([g.max_normal_forces for g in grasps]),
-            np.concatenate([g.groups for g in grasps]), [g.bound == 'l2' for g in grasps])
+            np.concatenate([g.groups for g in grasps]),
+            np.array([g.bound == 'l2' for g in grasps]))
 
     @classmethod
     def of_arrays(
@@ -166,10 +166,10 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
         M, k = points.shape[:2]
         if (normals is None) == (rotations is None):
             raise InvalidContactError('give exactly one of normals and rotations')
-        if rotations is None:
+        if normals is not None:
             given: Array = checked(normals, (M, k, 3), 'normals', InvalidContactError)
             frames = frames_of_normals(given.reshape(-1, 3))
-        else:
+        elif rotations is not None:
             frames = checked(rotations, (M, k, 3, 3), 'rotations', InvalidContactError)
         models = [model] * k if isinstance(model, ContactModel) else list(model)
         groups = bounds.groups_of(bound, list(fingers) or [''] * k)

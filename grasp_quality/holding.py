@@ -12,15 +12,16 @@ carries the smallest violation.
 import dataclasses
 
 from grasp_quality import friction_cone
-from grasp_quality.arrays import frozen
+from grasp_quality.arrays import Array, frozen
 from grasp_quality.grasp import Grasp
 from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.proof import USAGE_TOLERANCE
 from grasp_quality.solution import NO_FORCES, NO_USAGE, Status
 from grasp_quality.solve import prove_optimal
-from grasp_quality.time_limit import TimeLimit
+from grasp_quality.time_limit import Limit, TimeLimit
 from grasp_quality.wrench import as_wrench
 import numpy as np
+from numpy.typing import ArrayLike
 
 NEGLIGIBLE = 1e-15  # share of the caps that needs no forces to hold
 
@@ -53,19 +54,20 @@ class MinimumForces:
 
     grasp: Grasp
     status: Status
-    forces: np.ndarray
+    forces: Array
     peak: float
     peak_lower: float
     violation: float
-    cone_usage: np.ndarray
+    cone_usage: Array
 
     @property
-    def friction_margin(self):
+    def friction_margin(self) -> float:
         """1 minus the largest cone usage; 0 when infeasible."""
         return 1.0 - float(self.cone_usage.max()) if len(self.cone_usage) else 0.0
 
 
-def minimum_forces(grasp, external_wrench, time_limit_s=None):
+def minimum_forces(grasp: Grasp, external_wrench: ArrayLike,
+                   time_limit_s: Limit = None) -> MinimumForces:
     """
     Find the smallest contact forces with G x + F_ext = 0.
 
@@ -106,7 +108,7 @@ def minimum_forces(grasp, external_wrench, time_limit_s=None):
         peak = lower = np.inf
     else:
         peak, lower = float(optimum.values[0]) * size, -optimum.proof.upper * size
-    if peak > 1.0 + USAGE_TOLERANCE:
+    if optimum is None or peak > 1.0 + USAGE_TOLERANCE:
         return MinimumForces(grasp, Status.INFEASIBLE, NO_FORCES, peak, lower,
                              violation(grasp, load, time_limit_s), NO_USAGE)
     return MinimumForces(
@@ -114,7 +116,7 @@ def minimum_forces(grasp, external_wrench, time_limit_s=None):
         frozen(friction_cone.usage_of_shares(optimum.shares * (size / peak))))
 
 
-def violation(grasp, external_wrench, time_limit_s=None):
+def violation(grasp: Grasp, external_wrench: ArrayLike, time_limit_s: Limit = None) -> float:
     """
     Smallest |G x + F_ext| [N] that forces inside cones and caps leave.
 

@@ -8,6 +8,8 @@ does less work than the load asks for (docs/derivations.md).
 """
 
 from grasp_quality import judge, kernel_solver
+from grasp_quality.arrays import Array
+from grasp_quality.problem import ConicProblem, VirtualContact
 from grasp_quality.proof import worth_of
 import numpy as np
 
@@ -15,7 +17,7 @@ INFEASIBILITY_TOLERANCE = 1e-9  # of the caps' total: distance to any feasible l
 ENDLESS = 1e6  # times the caps: a load that needs more counts as one that no forces balance
 
 
-def infeasibility_margin(problem, direction):
+def infeasibility_margin(problem: ConicProblem, direction: Array) -> float:
     """
     Distance that a direction proves between the load and anything the grasp can balance.
 
@@ -50,7 +52,7 @@ def infeasibility_margin(problem, direction):
     return float(-work / size / problem.reach)
 
 
-def _sparing_the_task(virtual, direction):
+def _sparing_the_task(virtual: VirtualContact, direction: Array) -> Array:
     """Turn a direction until no task does negative work along it; zero where that fails."""
     axis, rest = virtual.columns[:, 0], virtual.columns[:, 1:]
     size = np.abs(direction).max()

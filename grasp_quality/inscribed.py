@@ -10,10 +10,13 @@ and the ellipsoid's axes orthogonal, so that neither the unit of torque nor the 
 matters. Everything is in the scaled wrenches of ``Grasp.scaled_matrix``.
 """
 
+from typing import cast
+
 from grasp_quality import ball_search, bounds, friction_cone
 from grasp_quality.exceptions import SolverError
 from grasp_quality.grasp import Grasp
 from grasp_quality.problem import build_problem
+from grasp_quality.proof import Proof
 from grasp_quality.solution import Solution
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskWrench
@@ -162,7 +165,7 @@ class Inscribed:
                 solution = solve(build_problem(self.grasp, task), self.limit)
             except SolverError:  # or out of time: what was met holds all the same
                 return
-            multiplier = solution.proof.multiplier
+            multiplier = cast(Proof, solution.proof).multiplier  # feasible: there is no load
             if lowest:
                 self.weakest = solution
 

@@ -11,6 +11,7 @@ another file (see ``kernel``).
 
 import math
 
+from grasp_quality.arrays import Array, Codes, Ints
 import numba
 import numpy as np
 
@@ -23,7 +24,7 @@ INSIDE = {key: value for key, value in COMPILE.items() if key != 'cache'}
 
 
 @numba.njit(**INSIDE)
-def worth_of(block, groups, multiplier, per_group):
+def worth_of(block: Array, groups: Ints, multiplier: Array, per_group: Array) -> float:
     """Write the worth of every group's best contact along lambda; return their sum."""
     per_group[:] = 0.0
     for i in range(len(groups)):
@@ -37,17 +38,20 @@ def worth_of(block, groups, multiplier, per_group):
         worth = h0 + math.sqrt(h1 * h1 + h2 * h2 + h3 * h3)
         if worth > per_group[groups[i]]:
             per_group[groups[i]] = worth
-    return per_group.sum()
+    total: float = per_group.sum()
+    return total
 
 
 @numba.njit(**INSIDE)
-def dot(a, b):
+def dot(a: Array, b: Array) -> float:
     """Scalar product of two (6,) arrays."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
+    total: float = (
+        a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
+    return total
 
 
 @numba.njit(**INSIDE)
-def usage_of(share, rounding):
+def usage_of(share: Array, rounding: float) -> float:
     """Share of one friction cone in use, for shares [n, t1, t2, m_n]; see ``friction_cone``."""
     normal = share[0]
     norm = math.sqrt(share[1] * share[1] + share[2] * share[2] + share[3] * share[3])
@@ -57,8 +61,10 @@ def usage_of(share, rounding):
 
 
 @numba.njit(**COMPILE)
-def judge(block, groups, task, load, reach, least_cap, alpha, share, multiplier, small_cap,
-          rounding, per_group, usage):
+def judge(block: Array, groups: Ints, task: Array, load: Array, reach: float, least_cap: float,
+          alpha: float, share: Array, multiplier: Array, small_cap: float, rounding: float,
+          per_group: Array,
+          usage: Array) -> tuple[float, float, float, float, float, float, float]:
     """
     Judge one answer to the question for the largest alpha.
 
@@ -127,7 +133,8 @@ def judge(block, groups, task, load, reach, least_cap, alpha, share, multiplier,
 
 
 @numba.njit(**INSIDE)
-def holds(alpha, upper, size, residual, imbalance, usage, bound_usage, tolerances):
+def holds(alpha: float, upper: float, size: float, residual: float, imbalance: float, usage: float,
+          bound_usage: float, tolerances: tuple[float, ...]) -> bool:
     """Whether gap, residuals, cone usage and use of the bound are all within tolerance."""
     return ((upper - alpha) / max(alpha, 1e-3 * size) <= tolerances[0]
             and residual <= tolerances[1] and imbalance <= tolerances[2]
@@ -135,7 +142,8 @@ def holds(alpha, upper, size, residual, imbalance, usage, bound_usage, tolerance
 
 
 @numba.njit(**COMPILE)
-def infeasibility_margin(block, groups, task, load, reach, multiplier, per_group):
+def infeasibility_margin(block: Array, groups: Ints, task: Array, load: Array, reach: float,
+                         multiplier: Array, per_group: Array) -> float:
     """
     Distance that a lambda proves between the load and anything the grasp can balance.
 
@@ -162,7 +170,7 @@ def infeasibility_margin(block, groups, task, load, reach, multiplier, per_group
 
 
 @numba.njit(**INSIDE)
-def write_forces(which, units, shares, status, forces):
+def write_forces(which: Ints, units: Array, shares: Array, status: Codes, forces: Array) -> None:
     """Write [t1, t2, n, m_n] (N, k, 4) of the proved answers, else zero; nothing for (0, k, 4)."""
     for n in range(len(forces)):
         m = which[n]
@@ -177,8 +185,10 @@ def write_forces(which, units, shares, status, forces):
 
 
 @numba.njit(**COMPILE)
-def judge_many(tolerances, blocks, which, groups, group_count, tasks, loads, reaches, least_caps,
-               units, sizes, alphas, shares, multipliers, status, uppers, forces):
+def judge_many(tolerances: tuple[float, ...], blocks: Array, which: Ints, groups: Ints,
+               group_count: int, tasks: Array, loads: Array, reaches: Array, least_caps: Array,
+               units: Array, sizes: Array, alphas: Array, shares: Array, multipliers: Array,
+               status: Codes, uppers: Array, forces: Array) -> None:
     """
     Judge the kernel's answers to N problems, and give them their units.
 
@@ -224,7 +234,8 @@ def judge_many(tolerances, blocks, which, groups, group_count, tasks, loads, rea
 
 
 @numba.njit(**INSIDE)
-def centre_bound(block, groups, task, load, eps, unit, multiplier, nu):
+def centre_bound(block: Array, groups: Ints, task: Array, load: Array, eps: float, unit: Array,
+                 multiplier: Array, nu: Array) -> float:
     """Bound eq. (11)'s objective by its dual in closed form (``barrier.objective_upper``)."""
     along = dot(multiplier, task)
     if not along > 0.0:
@@ -253,7 +264,7 @@ def centre_bound(block, groups, task, load, eps, unit, multiplier, nu):
 
 
 @numba.njit(**INSIDE)
-def log_det_sum(share, unit):
+def log_det_sum(share: Array, unit: Array) -> float:
     """Sum of log det P_i over the contacts, -inf on an edge (``friction_cone.log_det``)."""
     total = 0.0
     for i in range(len(share)):
@@ -268,9 +279,11 @@ def log_det_sum(share, unit):
 
 
 @numba.njit(**COMPILE)
-def judge_centres(tolerances, blocks, which, groups, group_count, tasks, loads, reaches,
-                  least_caps, units, sizes, weight, alphas, shares, multipliers, nus, uppers,
-                  status, forces):
+def judge_centres(tolerances: tuple[float, ...], blocks: Array, which: Ints, groups: Ints,
+                  group_count: int, tasks: Array, loads: Array, reaches: Array, least_caps: Array,
+                  units: Array, sizes: Array, weight: float, alphas: Array, shares: Array,
+                  multipliers: Array, nus: Array, uppers: Array, status: Codes,
+                  forces: Array) -> None:
     """
     Judge the kernel's answers to N problems with a barrier weight.
 

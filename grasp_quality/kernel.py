@@ -22,8 +22,11 @@ motors. ``judge`` and ``scaled`` are compiled by themselves and call nothing els
 """
 
 import math
+
+
 import operator
 
+from grasp_quality.arrays import Array, Codes, Ints
 from llvmlite import ir
 import numba
 from numba.core import cgutils, types
@@ -731,8 +734,9 @@ def give(lane, groups, work, group, state, loaded, share, multipliers, nu):
 
 
 @numba.njit(nogil=True, cache=True, **PLAIN)
-def solve_many(blocks, which, groups, group_count, tasks, loads, reaches, least_caps, sense,
-               weights, alphas, shares, multipliers, nus, status):
+def solve_many(blocks: Array, which: Ints, groups: Ints, group_count: int, tasks: Array,
+               loads: Array, reaches: Array, least_caps: Array, sense: float, weights: Array,
+               alphas: Array, shares: Array, multipliers: Array, nus: Array, status: Codes) -> int:
     """
     Largest or smallest alpha of N task wrenches, or their weighted centres of eq. (11).
 

@@ -8,24 +8,29 @@ other's and hands what it does not solve to Clarabel.
 """
 
 from grasp_quality import kernel
+from grasp_quality.arrays import Array
+from grasp_quality.grasp import Grasp
+from grasp_quality.problem import ConicProblem
 from grasp_quality.raw_answer import RawAnswer
+from grasp_quality.time_limit import TimeLimit
 import numpy as np
 
 ONE = np.zeros(1, np.int64)  # the only problem's grasp
 
 
-def handles(problem):
+def handles(problem: ConicProblem) -> bool:
     """Whether the kernel knows this kind of problem."""
     return problem.virtual.role == 'task' and not problem.virtual.is_cone \
         and problem.virtual.columns.shape[1] == 1 and handles_grasp(problem.grasp)
 
 
-def handles_grasp(grasp):
+def handles_grasp(grasp: Grasp) -> bool:
     """Whether the kernel knows task wrenches on this grasp: groups are all that bounds forces."""
     return grasp.bound != 'l2' and grasp.joint_limits is None
 
 
-def run(problem, limit=None, weights=None):
+def run(problem: ConicProblem, limit: TimeLimit | None = None,
+        weights: Array | None = None) -> RawAnswer:
     """
     Solve a ConicProblem once.
 

@@ -13,9 +13,11 @@ for the l2 bound the cone of all normals.
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
+from grasp_quality.arrays import Array, Ints
 import numpy as np
 
 CONE_ORDER = (2, 0, 1, 3)  # axis first: n, t1, t2, m_n
+Cones = tuple[tuple[str, int], ...]
 ROLES = ('task', 'pressing', 'widening')
 
 
@@ -50,23 +52,23 @@ class Layout:
 
     """
 
-    groups: tuple
-    cones: tuple
-    virtual: np.ndarray
-    contact_variables: np.ndarray
-    contact_source: np.ndarray
-    source: np.ndarray
-    row_columns: np.ndarray
-    row_starts: np.ndarray
-    bound_entries: np.ndarray
-    bound_right: np.ndarray
-    joint_sources: tuple
-    shape: tuple
+    groups: tuple[int, ...]
+    cones: Cones
+    virtual: Ints
+    contact_variables: Ints
+    contact_source: Ints
+    source: Ints
+    row_columns: Ints
+    row_starts: Ints
+    bound_entries: Array
+    bound_right: Array
+    joint_sources: tuple[Ints, ...]
+    shape: tuple[int, int]
     contact_count: int
     joint_count: int
 
     @cached_property
-    def blocks(self):
+    def blocks(self) -> Ints:
         """Variables of every cone (blocks, d), one a row, axis first, padded with -1."""
         rows, start = [], 0
         for kind, size in self.cones:
@@ -76,33 +78,34 @@ class Layout:
         width = max(len(row) for row in rows)
         return np.array([row + [-1] * (width - len(row)) for row in rows])
 
-    def shares(self, u):
+    def shares(self, u: Array) -> Array:
         """Contact part of u as shares [t1/mu, t2/mu, n, m_n/gamma] / f_max, (k, 4)."""
         shares = np.zeros((self.contact_count, 4))
         shares.ravel()[self.contact_source] = u[self.contact_variables]
         return shares
 
-    def contact_multipliers(self, multipliers):
+    def contact_multipliers(self, multipliers: Array) -> Array:
         """Multiplier nu of the bound for every contact (k,), from those of all equations."""
         if self.groups:
             return multipliers[6:][list(self.groups)]
         return multipliers[7:7 + self.contact_count]
 
-    def worths(self, multipliers):
+    def worths(self, multipliers: Array) -> Array:
         """Worth of the equilibrium and, signed, of the joints (6 + j,), from all multipliers."""
         if not self.joint_count:
             return multipliers[:6]
         return np.concatenate([multipliers[:6], multipliers[-2 * self.joint_count:][
             :self.joint_count]])
 
-    def joint_spreads(self, multipliers):
+    def joint_spreads(self, multipliers: Array) -> Array:
         """Sum of the multipliers of both limits of each joint, (j,)."""
         upper, both = multipliers[-2 * self.joint_count:].reshape(2, -1)
         return np.maximum(upper + 2.0 * both, np.abs(upper))
 
 
 @lru_cache(maxsize=256)
-def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role, joint_count=0):
+def layout_of(active: bytes, groups: tuple[int, ...], is_l2: bool, virtual_size: int,
+              virtual_is_cone: bool, role: str, joint_count: int = 0) -> Layout:
     """
     Lay a pattern out.
 
@@ -131,14 +134,14 @@ def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role, joint_
                    for row in np.frombuffer(active, dtype=bool).reshape(-1, 4)]
     next_variable = 0
 
-    def take(count):
+    def take(count: int) -> range:
         nonlocal next_variable
         next_variable += count
         return range(next_variable - count, next_variable)
 
     slacks = take(0 if is_l2 else max(groups) + 1)
     joints = [take(2) for _ in range(joint_count)]
-    virtual = None if virtual_is_cone else take(virtual_size)
+    virtual = range(0) if virtual_is_cone else take(virtual_size)
     variables = {i: take(1) for i, c in enumerate(coordinates) if len(c) == 1}
     cones = [('nonnegative', next_variable)]
     for i, c in enumerate(coordinates):
@@ -162,7 +165,7 @@ def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role, joint_
     # rows of the bound: ({variable: coefficient}, right side)
     right = 0.0 if role == 'widening' else 1.0
     widen = {virtual[0]: -1.0} if role == 'widening' else {}
-    rows = []
+    rows: list[tuple[dict[int, float], float]] = []
     if is_l2:
         rows.append(({norm_cone[0]: 1.0, **widen}, right))
         for i in range(len(coordinates)):
@@ -173,15 +176,16 @@ def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role, joint_
         press = {virtual[0]: float(len(members))} if role == 'pressing' else {}
         rows.append((
             {slack: 1.0, **{variables[i][0]: 1.0 for i in members}, **press, **widen}, right))
-    rows = [(sorted(row.items()), right) for row, right in rows]
+    ordered = [(sorted(row.items()), right) for row, right in rows]
 
     size = 4 * len(coordinates)
-    press = [(virtual[0], size + 1)] if role == 'pressing' else []
-    upper = [[(p, size), *sorted(press + contact_entries)] for p, _ in joints]
-    press = [(virtual[0], size + 2)] if role == 'pressing' else []
-    both = [[(p, size), (q, size), *press] for p, q in joints]
+    pressing = [(virtual[0], size + 1)] if role == 'pressing' else []
+    upper = [[(p, size), *sorted(pressing + contact_entries)] for p, _ in joints]
+    pressing = [(virtual[0], size + 2)] if role == 'pressing' else []
+    both = [[(p, size), (q, size), *pressing] for p, q in joints]
 
-    lengths = [len(entries)] * 6 + [len(row) for row in [*(r for r, _ in rows), *upper, *both]]
+    lengths = [len(entries)] * 6 + [
+        *(len(row) for row, _ in ordered), *map(len, upper), *map(len, both)]
     equilibrium_columns = [v for v, _ in entries] * 6
     return Layout(
         groups=() if is_l2 else groups,
@@ -191,10 +195,11 @@ def layout_of(active, groups, is_l2, virtual_size, virtual_is_cone, role, joint_
         contact_source=np.array([source for _, source in contact_entries]),
         source=np.array([source for _, source in entries]),
         row_columns=np.array(equilibrium_columns + [
-            v for row in [*(r for r, _ in rows), *upper, *both] for v, _ in row]),
+            *(v for row, _ in ordered for v, _ in row),
+            *(v for row in [*upper, *both] for v, _ in row)]),
         row_starts=np.concatenate([[0], np.cumsum(lengths)]),
-        bound_entries=np.array([value for row, _ in rows for _, value in row]),
-        bound_right=np.array([right for _, right in rows]),
+        bound_entries=np.array([value for row, _ in ordered for _, value in row]),
+        bound_right=np.array([right for _, right in ordered]),
         joint_sources=tuple(np.array([source for _, source in kind[0]]) for kind in (
             (upper, both) if joints else ())),
         shape=(len(lengths), next_variable),

@@ -25,7 +25,7 @@ from grasp_quality.problem import build_problem
 from grasp_quality.scaled import Scaled
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskWrench
-from grasp_quality.time_limit import TimeLimit
+from grasp_quality.time_limit import Limit, TimeLimit
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -68,13 +68,15 @@ class ManySolution:
     @property
     def feasible(self) -> NDArray[np.bool_]:
         """Which problems have forces: the optimal ones."""
-        return (self.status == Outcome.OPTIMAL) | (self.status == Outcome.OPTIMAL_NO_INTERIOR)
+        found: NDArray[np.bool_] = (
+            (self.status == Outcome.OPTIMAL) | (self.status == Outcome.OPTIMAL_NO_INTERIOR))
+        return found
 
 
 def evaluate_many(
         grasps: GraspSet | Iterable[Grasp], tasks: TaskWrench | ArrayLike,
         external_wrench: ArrayLike | None = None, barrier_weight: float = 0.0,
-        forces: bool = False, time_limit_s: float | None = None) -> ManySolution:
+        forces: bool = False, time_limit_s: Limit = None) -> ManySolution:
     """
     Tell how much of a task wrench each of many grasps can apply.
 
@@ -128,7 +130,7 @@ def evaluate_many(
     by_kernel(grasps, which, wrenches, loads, answers, limit, eps)
     unproved = np.flatnonzero(answers.status == judge.UNPROVED)
     for n in unproved:
-        _alone(grasps[int(which[n])], wrenches[n], loads[n], eps, limit, answers, n)
+        _alone(grasps[int(which[n])], wrenches[n], loads[n], eps, limit, answers, int(n))
     return ManySolution(
         frozen(answers.alpha.reshape(shape)), frozen(answers.upper.reshape(shape)),
         frozen(answers.status.reshape(shape)),

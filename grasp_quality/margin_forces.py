@@ -10,7 +10,6 @@ smoothly with contacts and load.
 """
 
 from dataclasses import dataclass
-from typing import cast
 
 from grasp_quality.arrays import checked_number, frozen
 from grasp_quality.exceptions import InvalidTaskError
@@ -124,7 +123,6 @@ def hold_forces(grasp: Grasp, external_wrench: ArrayLike | None = None,
             frozen(usage_of_shares(center.shares)), center.proof.bound_usage, center)
     least = minimum_forces(grasp, load, limit)
     if least.status is Status.INFEASIBLE:
-        return HoldForces(grasp, Status.INFEASIBLE, cast(Array, NO_FORCES),
-                          cast(Array, NO_USAGE), least.peak)
+        return HoldForces(grasp, Status.INFEASIBLE, NO_FORCES, NO_USAGE, least.peak)
     return HoldForces(
         grasp, Status.OPTIMAL_NO_INTERIOR, least.forces, least.cone_usage, least.peak)

@@ -7,25 +7,57 @@ Each is a few solves of conic programs put together; the mathematics of one solv
 ``problem``, ``solve`` and ``proof``, the barrier term in ``barrier``.
 """
 
+from __future__ import annotations
+
 import dataclasses
+from typing import cast, overload
 
 from grasp_quality import friction_cone
-from grasp_quality.arrays import checked, checked_number, frozen
+from grasp_quality.arrays import Array, checked, checked_number, frozen
 from grasp_quality.barrier import with_margin
 from grasp_quality.batch import solve_wrenches
 from grasp_quality.exceptions import InvalidTaskError
+from grasp_quality.grasp import Grasp
 from grasp_quality.polytope import evaluate_ellipsoid, evaluate_polytope
 from grasp_quality.problem import build_problem
 from grasp_quality.reserve import with_reserve
-from grasp_quality.solution import WrenchMap
+from grasp_quality.solution import ConeSolution, PolytopeSolution, Solution, WrenchMap
 from grasp_quality.solve import solve
-from grasp_quality.task import check_rows, TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
-from grasp_quality.time_limit import TimeLimit
+from grasp_quality.task import (
+    check_rows, Task, TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench)
+from grasp_quality.time_limit import Limit, TimeLimit
 import numpy as np
+from numpy.typing import ArrayLike
 
 
-def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s=None,
-             alpha_reserve=0.0, start=None):
+@overload
+def evaluate(grasp: Grasp, task: TaskWrench, external_wrench: ArrayLike | None = ...,
+             barrier_weight: float = ..., time_limit_s: Limit = ..., alpha_reserve: float = ...,
+             start: Solution | None = ...) -> Solution: ...
+
+
+@overload
+def evaluate(grasp: Grasp, task: TaskCone, external_wrench: ArrayLike | None = ...,
+             barrier_weight: float = ..., time_limit_s: Limit = ..., alpha_reserve: float = ...,
+             start: Solution | None = ...) -> ConeSolution: ...
+
+
+@overload
+def evaluate(grasp: Grasp, task: TaskPolytope | TaskEllipsoid,
+             external_wrench: ArrayLike | None = ..., barrier_weight: float = ...,
+             time_limit_s: Limit = ..., alpha_reserve: float = ...,
+             start: Solution | None = ...) -> PolytopeSolution: ...
+
+
+@overload
+def evaluate(grasp: Grasp, task: Task, external_wrench: ArrayLike | None = ...,
+             barrier_weight: float = ..., time_limit_s: Limit = ..., alpha_reserve: float = ...,
+             start: Solution | None = ...) -> Solution | PolytopeSolution: ...
+
+
+def evaluate(grasp: Grasp, task: Task, external_wrench: ArrayLike | None = None,
+             barrier_weight: float = 0.0, time_limit_s: Limit = None, alpha_reserve: float = 0.0,
+             start: Solution | None = None) -> Solution | PolytopeSolution:
     """
     Tell how much of a task the grasp can apply, and with which forces.
 
@@ -65,7 +97,7 @@ def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s
             f'barrier_weight {eps:g} and alpha_reserve {reserve:g} are two ways to buy margin '
             'with alpha: set one of them to 0')
 
-    def one(single):
+    def one(single: TaskWrench | TaskCone) -> Solution:
         problem = build_problem(grasp, single, external_wrench)
         solution = solve(problem, time_limit_s)
         if eps > 0.0 and solution.feasible:
@@ -77,7 +109,8 @@ def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s
     if isinstance(task, TaskWrench):
         return one(task)
     if isinstance(task, TaskCone):
-        return _with_axis_and_surface(one(task), grasp, task, external_wrench, time_limit_s)
+        return _with_axis_and_surface(
+            cast(ConeSolution, one(task)), grasp, task, external_wrench, time_limit_s)
     if isinstance(task, TaskPolytope):
         return evaluate_polytope(grasp, task, one, external_wrench, time_limit_s)
     if isinstance(task, TaskEllipsoid):
@@ -87,7 +120,8 @@ def evaluate(grasp, task, external_wrench=None, barrier_weight=0.0, time_limit_s
         f'got {type(task).__name__}')
 
 
-def _with_axis_and_surface(solution, grasp, task, external_wrench, time_limit_s):
+def _with_axis_and_surface(solution: ConeSolution, grasp: Grasp, task: TaskCone,
+                           external_wrench: ArrayLike | None, time_limit_s: Limit) -> ConeSolution:
     axis, *surface = wrench_map(
         grasp, np.vstack([task.axis[None], task.surface]), external_wrench,
         time_limit_s=time_limit_s).alpha
@@ -95,7 +129,8 @@ def _with_axis_and_surface(solution, grasp, task, external_wrench, time_limit_s)
         solution, alpha_axis=float(axis), alpha_worst=float(min(surface)) if surface else None)
 
 
-def wrench_map(grasp, directions, external_wrench=None, forces=False, time_limit_s=None):
+def wrench_map(grasp: Grasp, directions: ArrayLike, external_wrench: ArrayLike | None = None,
+               forces: bool = False, time_limit_s: Limit = None) -> WrenchMap:
     """
     Alpha for many task wrenches (Fig. 3b).
 
@@ -125,10 +160,10 @@ def wrench_map(grasp, directions, external_wrench=None, forces=False, time_limit
     check_rows(directions, 'directions')
     batch = solve_wrenches(grasp, directions, external_wrench, time_limit_s, forces)
     return WrenchMap(directions, frozen(batch.alpha), frozen(batch.feasible),
-                     frozen(batch.forces) if forces else None)
+                     None if batch.forces is None else frozen(batch.forces))
 
 
-def slip_margin(grasp, forces):
+def slip_margin(grasp: Grasp, forces: ArrayLike) -> Array:
     """
     Slip margin of measured contact forces, 1 - cone usage.
 

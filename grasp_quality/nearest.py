@@ -89,7 +89,8 @@ def nearest_forces(problem: ConicProblem, shares: Array,
     cones = [clarabel.ZeroConeT(len(problem.e)), *(CONES[kind](n) for kind, n in problem.cones)]
     said = ''
     for attempt in reversed(range(len(ATTEMPTS))):  # the sharpest first
-        settings = solver_settings(attempt, limit and limit.remaining_s(problem))
+        settings = solver_settings(
+            attempt, None if limit is None else limit.remaining_s(problem))
         _, u, said = run_matrices(P, linear, A, b, cones, settings, problem)
         if said == 'PrimalInfeasible':
             return None

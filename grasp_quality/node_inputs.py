@@ -9,16 +9,24 @@ to recover. Arrival is told by the steady clock, stamps by the ROS clock: contac
 the older of the two says. Task and load hold until they are replaced.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import time
+from typing import Any, cast
 
+from grasp_quality.arrays import Array
+from grasp_quality.contact_set import ContactSet
 from grasp_quality.grasp import Grasp
 from grasp_quality.measures import slip_margin
+from grasp_quality.node_settings import Settings
 from msg_adapters.contacts import contacts_from_array, contacts_from_poses
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
-from msg_adapters.frames import object_frame_of, transform_to
+from msg_adapters.frames import object_frame_of, Transform, transform_to
 from msg_adapters.joint_limits import joint_limits_from
 from msg_adapters.measured import local_force
+from msg_adapters.message_types import Framed, Stamp, Stamped, StampedWrench
 from msg_adapters.stamps import stamp_ns
 from msg_adapters.tasks import HeldLoad, HeldTask, NoFrame
 from msg_adapters.wrenches import to_wrench
@@ -48,9 +56,9 @@ class Scene:
     """
 
     grasp: Grasp
-    forces: tuple
+    forces: tuple[Array | None, ...]
     frame: str
-    stamp: object
+    stamp: Stamp
 
 
 class Inputs:
@@ -62,31 +70,33 @@ class Inputs:
 
     """
 
-    def __init__(self, settings, now_ns, steady_ns=time.monotonic_ns):
+    def __init__(self, settings: Callable[[], Settings], now_ns: Callable[[], int],
+                 steady_ns: Callable[[], int] = time.monotonic_ns) -> None:
         self._settings = settings
         self._now_ns = now_ns
         self._steady_ns = steady_ns
-        self._contacts = None      # (message, arrival [ns])
-        self._read = (None, None)  # (contact message, settings, Grasp, object frame)
-        self._wrenches = {}        # contact name: (message, arrival [ns])
-        self.task = None           # SetTask.Request or HeldTask
-        self.load = None           # HeldLoad
-        self.tf_buffer = None      # tf2_ros.Buffer where tf2 is installed
-        self.problems = ()         # what was wrong with measured wrenches, last time
+        self._contacts: tuple[Any, int] | None = None  # message, arrival [ns]
+        # contact message, settings, Grasp, object frame
+        self._read: tuple[Any, Settings, Grasp, str] | None = None
+        self._wrenches: dict[str, tuple[StampedWrench, int]] = {}  # by contact; arrival [ns]
+        self.task: Any = None      # SetTask.Request or HeldTask
+        self.load: HeldLoad | None = None
+        self.tf_buffer: Any = None  # tf2_ros.Buffer where tf2 is installed
+        self.problems: tuple[str, ...] = ()  # what was wrong with measured wrenches, last time
 
-    def clear(self):
+    def clear(self) -> None:
         """Forget contacts and measurements, as on deactivation; keep the task."""
         self._contacts = None
         self._wrenches = {}
 
-    def store_contacts(self, message):
+    def store_contacts(self, message: Stamped) -> bool:
         """Keep a PoseArray or ContactArray, unless one with a later stamp is fresh; tell if so."""
         if self._is_late(message):
             return False
         self._contacts = (message, self._steady_ns())
         return True
 
-    def _is_late(self, message):
+    def _is_late(self, message: Stamped) -> bool:
         if self._contacts is None or not stamp_ns(message.header.stamp):
             return False
         try:
@@ -95,29 +105,29 @@ class Inputs:
             return False
         return stamp_ns(message.header.stamp) < stamp_ns(self._contacts[0].header.stamp)
 
-    def store_wrench(self, name, message):
+    def store_wrench(self, name: str, message: StampedWrench) -> None:
         """Keep the measured WrenchStamped of a contact."""
         self._wrenches[name] = (message, self._steady_ns())
 
-    def set_task(self, request):
+    def set_task(self, request: Any) -> None:
         """Keep a SetTask request: its task, and its external wrench as the load."""
         self.task = request
         self.load = HeldLoad(request.external_wrench, request.header)
 
-    def store_task_wrench(self, message):
+    def store_task_wrench(self, message: StampedWrench) -> None:
         """Keep a WrenchStamped as the task of the live loop; the load stays."""
         self.task = HeldTask(message.wrench, message.header)
 
-    def store_load(self, message):
+    def store_load(self, message: StampedWrench) -> None:
         """Keep a WrenchStamped as the external wrench of the live loop."""
         self.load = HeldLoad(message.wrench, message.header)
 
-    def set_task_wrench(self, wrench):
+    def set_task_wrench(self, wrench: Sequence[float]) -> None:
         """Keep fx fy fz tx ty tz in the object frame as the task; empty leaves the task alone."""
         if len(wrench):
             self.task = HeldTask(to_wrench(wrench), NoFrame())
 
-    def age_s(self):
+    def age_s(self) -> float:
         """
         Age of the newest contacts [s], by stamp and arrival.
 
@@ -142,7 +152,7 @@ class Inputs:
                 f'the newest contacts are {max(ages):.3f} s old, max_contact_age is {limit:g} s')
         return max(max(ages), 0.0)
 
-    def scene(self):
+    def scene(self) -> Scene:
         """
         Newest loaded contacts, checked and in the object frame.
 
@@ -152,10 +162,11 @@ class Inputs:
 
         """
         self.age_s()
-        message, settings = self._contacts[0], self._settings()
-        if self._read[0] is not message or self._read[1] is not settings:
-            self._read = (message, settings, *self.read_grasp(message))
-        grasp, frame = self._read[2:]
+        message, settings = cast(tuple[Any, int], self._contacts)[0], self._settings()
+        read = self._read
+        if read is None or read[0] is not message or read[1] is not settings:
+            read = self._read = (message, settings, *self.read_grasp(message))
+        grasp, frame = read[2:]
         forces = self._measured(grasp.contacts, frame)
         if settings.min_contact_force > 0.0:
             loaded = [i for i, force in enumerate(forces)
@@ -169,7 +180,7 @@ class Inputs:
             forces = [forces[i] for i in loaded]
         return Scene(grasp, tuple(forces), frame, message.header.stamp)
 
-    def read_grasp(self, message):
+    def read_grasp(self, message: Any) -> tuple[Grasp, str]:
         """Turn a PoseArray or ContactArray into (Grasp, object frame)."""
         settings = self._settings()
         frame = object_frame_of(message.header.frame_id, settings.object_frame)
@@ -187,11 +198,11 @@ class Inputs:
             message, contacts, transform, settings.max_request_size)
         return Grasp(contacts, settings.force_bound, limits), frame
 
-    def transform(self, header, frame, stamp):
+    def transform(self, header: Framed, frame: str, stamp: Stamp) -> Transform | None:
         """Transform from a header's frame to the object frame at a time; None for the identity."""
         return transform_to(frame, header.frame_id, self.tf_buffer, stamp)
 
-    def _measured(self, contacts, frame):
+    def _measured(self, contacts: ContactSet, frame: str) -> list[Array | None]:
         """Fresh measured force (4,) of each contact, or None."""
         forces, problems = [], []
         limit = self._settings().max_contact_age
@@ -209,13 +220,13 @@ class Inputs:
         self.problems = tuple(problems)
         return forces
 
-    def _ages(self, message, arrival):
+    def _ages(self, message: Stamped, arrival: int) -> tuple[float, float]:
         since_arrival = (self._steady_ns() - arrival) * 1e-9
         stamp = stamp_ns(message.header.stamp)
         return since_arrival, (self._now_ns() - stamp) * 1e-9 if stamp else since_arrival
 
 
-def measured_margin(scene):
+def measured_margin(scene: Scene) -> float | None:
     """
     Smallest slip margin of the measured contacts, in [-1, 1]; None when none was measured.
 

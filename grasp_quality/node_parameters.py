@@ -9,8 +9,10 @@ post-set callback, so that a rejected set changes nothing. Bags are replayed wit
 and without ROS, which is why only the functions that talk to a node import it.
 """
 
+from collections.abc import Iterable
 from dataclasses import fields
 import enum
+from typing import Any
 
 from grasp_quality.node_settings import Settings
 from grasp_quality.uncertainty import LARGEST_POSITION, LARGEST_TILT
@@ -30,7 +32,7 @@ class Type(enum.IntEnum):
 
 
 # name: (type, description with unit, range or None, read-only)
-TABLE = {
+TABLE: dict[str, tuple[Type, str, tuple[float, float] | None, bool]] = {
     'object_frame': (Type.STRING, 'Frame of the object; empty: the frame the contacts come in',
                      None, False),
     'contact_source': (Type.STRING, 'Topic the contacts are taken from: pose_array '
@@ -95,7 +97,7 @@ TABLE = {
 }
 
 
-def declare(node):
+def declare(node: Any) -> Settings:
     """
     Declare all parameters on a node and return their checked values.
 
@@ -109,10 +111,10 @@ def declare(node):
     from rclpy.parameter import Parameter
     for name, (kind, description, limits, read_only) in TABLE.items():
         descriptor = ParameterDescriptor(description=description, read_only=read_only)
-        if kind is Type.DOUBLE:
+        if limits is not None and kind is Type.DOUBLE:
             descriptor.floating_point_range = [
                 FloatingPointRange(from_value=limits[0], to_value=limits[1])]
-        elif kind is Type.INTEGER:
+        elif limits is not None:
             descriptor.integer_range = [IntegerRange(from_value=limits[0], to_value=limits[1])]
         default = getattr(Settings, name)
         # a list without elements has no type of its own: such a parameter starts not set
@@ -121,7 +123,7 @@ def declare(node):
     return Settings(**{f.name: _value(node, f.name) for f in fields(Settings)})
 
 
-def _value(node, name):
+def _value(node: Any, name: str) -> Any:
     from rclpy.exceptions import ParameterUninitializedException
     try:
         value = node.get_parameter(name).value
@@ -130,7 +132,7 @@ def _value(node, name):
     return tuple(value) if TABLE[name][0] >= Type.DOUBLE_ARRAY else value
 
 
-def changed(settings, parameters):
+def changed(settings: Settings, parameters: Iterable[Any]) -> Settings:
     """Return settings with a list of rclpy Parameters applied; those of others are passed over."""
     changes = {}
     for parameter in parameters:
@@ -141,7 +143,7 @@ def changed(settings, parameters):
     return Settings(**{**{f.name: getattr(settings, f.name) for f in fields(Settings)}, **changes})
 
 
-def check(settings, parameters):
+def check(settings: Settings, parameters: Iterable[Any]) -> Any:
     """Answer an on-set callback: whether these parameters would be valid together."""
     from rcl_interfaces.msg import SetParametersResult
     try:

@@ -7,6 +7,7 @@ Checked values of the node's parameters, and the rules that a range cannot say.
 values and without ROS.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from grasp_quality.bounds import BOUNDS
@@ -34,8 +35,8 @@ class Settings:
 
     object_frame: str = ''
     contact_source: str = 'pose_array'
-    contact_names: tuple = ()
-    contact_fingers: tuple = ()
+    contact_names: tuple[str, ...] = ()
+    contact_fingers: tuple[str, ...] = ()
     contact_model: str = 'PCWF'
     friction_coefficient: float = 0.5
     torsional_friction_coefficient: float = 0.005
@@ -44,7 +45,7 @@ class Settings:
     barrier_weight: float = 0.0
     alpha_reserve: float = 0.0
     force_rate_limit: float = 0.0
-    task_wrench: tuple = ()
+    task_wrench: tuple[float, ...] = ()
     min_contact_force: float = 0.0
     wanted_margin: float = 0.2
     margin_warning: float = -1.0
@@ -60,11 +61,11 @@ class Settings:
     contact_noise: float = 0.0
     normal_noise: float = 0.0
     friction_noise: float = 0.0
-    load_noise: tuple = ()
+    load_noise: tuple[float, ...] = ()
     autostart: bool = True
     allow_unsecured: bool = False
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         """Check the rules that a range cannot say."""
         _one_of('contact_source', self.contact_source, SOURCES)
         _one_of('contact_model', self.contact_model, [m.value for m in ContactModel])
@@ -96,7 +97,7 @@ class Settings:
                 f'{self.alpha_reserve:g} are two ways to buy margin with alpha: set one to 0')
         self._check_uncertainty()
 
-    def _check_uncertainty(self):
+    def _check_uncertainty(self) -> None:
         if not 0.0 < self.quantile_level < 1.0:
             raise ValueError(
                 f'quantile_level must be between 0 and 1 exclusive, got {self.quantile_level}')
@@ -109,7 +110,7 @@ class Settings:
                 f'{self.quantile_level:g}, got {self.quantile_samples}')
 
     @property
-    def contact_defaults(self):
+    def contact_defaults(self) -> ContactDefaults:
         """Return what contact messages leave open."""
         return ContactDefaults(
             ContactModel[self.contact_model], self.friction_coefficient,
@@ -117,6 +118,6 @@ class Settings:
             self.contact_names, self.contact_fingers)
 
 
-def _one_of(name, value, choices):
+def _one_of(name: str, value: str, choices: Iterable[str]) -> None:
     if value not in choices:
         raise ValueError(f'{name} must be one of {list(choices)}, got {value!r}')

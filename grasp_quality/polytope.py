@@ -8,18 +8,25 @@ eq. (19) of the paper claims is held only at ``parallelotope_scale``, the least 
 corners (docs/derivations.md).
 """
 
+from collections.abc import Callable
 import itertools
+from typing import Any
 
-from grasp_quality.arrays import frozen
+from grasp_quality.arrays import Array, frozen
 from grasp_quality.batch import solve_wrenches
-from grasp_quality.solution import PolytopeSolution, Status
-from grasp_quality.task import TaskWrench
+from grasp_quality.grasp import Grasp
+from grasp_quality.solution import PolytopeSolution, Solution, Status
+from grasp_quality.task import TaskEllipsoid, TaskPolytope, TaskWrench
+from grasp_quality.time_limit import Limit
 import numpy as np
+from numpy.typing import ArrayLike
 
 MAX_PARALLELOTOPE = 8  # wrenches; the corners are 2^8
 
 
-def evaluate_polytope(grasp, task, solve_one, external_wrench, time_limit_s):
+def evaluate_polytope(grasp: Grasp, task: TaskPolytope,
+                      solve_one: Callable[[TaskWrench], Solution],
+                      external_wrench: ArrayLike | None, time_limit_s: Limit) -> PolytopeSolution:
     """Solve every wrench by ``solve_one(TaskWrench)``, and weigh; see ``measures.evaluate``."""
     solutions = [solve_one(TaskWrench(wrench)) for wrench in task.wrenches]
     summary = _summary(grasp, solutions, task.weights)
@@ -32,9 +39,10 @@ def evaluate_polytope(grasp, task, solve_one, external_wrench, time_limit_s):
     return PolytopeSolution(**summary, parallelotope_scale=scale)
 
 
-def evaluate_ellipsoid(grasp, task, solve_one):
+def evaluate_ellipsoid(grasp: Grasp, task: TaskEllipsoid,
+                       solve_one: Callable[[TaskWrench], Solution]) -> PolytopeSolution:
     """Solve both ends of every principal axis; only min alpha / sqrt(n) is guaranteed."""
-    ends = np.concatenate([task.axes, -task.axes])
+    ends = task.ends
     solutions = [solve_one(TaskWrench(wrench)) for wrench in ends]
     summary = _summary(grasp, solutions, np.full(len(ends), 1.0 / len(ends)))
     held = all(s.feasible and s.holdable for s in solutions)
@@ -42,7 +50,7 @@ def evaluate_ellipsoid(grasp, task, solve_one):
     return PolytopeSolution(**summary, guaranteed_scale=guaranteed)
 
 
-def _summary(grasp, solutions, weights):
+def _summary(grasp: Grasp, solutions: list[Solution], weights: Array) -> dict[str, Any]:
     alphas = np.array([s.alpha for s in solutions])
     feasible = all(s.feasible for s in solutions)
     flat = [s for s in solutions if s.status is Status.OPTIMAL_NO_INTERIOR]
@@ -56,7 +64,8 @@ def _summary(grasp, solutions, weights):
         'solutions': tuple(solutions)}
 
 
-def _largest_scale(grasp, reached, external_wrench, time_limit_s):
+def _largest_scale(grasp: Grasp, reached: Array, external_wrench: ArrayLike | None,
+                   time_limit_s: Limit) -> float:
     """Least alpha over the corners sum_{i in S} alpha_i F_i, at most 1."""
     reached = reached[reached.any(axis=1)]
     size = np.abs(reached).max(initial=0.0)

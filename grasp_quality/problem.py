@@ -16,17 +16,20 @@ Which variable stands where depends on the contact models and the bound only, so
 it; building is then one gather of numbers. Nothing here knows of a solver.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
+from grasp_quality.arrays import Array, frozen
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp
-from grasp_quality.layout import Layout, layout_of
+from grasp_quality.layout import Cones, Layout, layout_of
 from grasp_quality.task import TaskCone, TaskWrench
 from grasp_quality.wrench import as_wrench
 import numpy as np
+from numpy.typing import ArrayLike
 
 NO_WRENCH = as_wrench(np.zeros(6))
+NO_WRENCHES = frozen(np.zeros((0, 6)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,12 +55,12 @@ class VirtualContact:
 
     """
 
-    columns: np.ndarray
+    columns: Array
     is_cone: bool
-    objective: np.ndarray
+    objective: Array
     unit: float = 1.0
     role: str = 'task'
-    wrenches: np.ndarray = None
+    wrenches: Array = field(default_factory=lambda: NO_WRENCHES)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,25 +80,25 @@ class ConicProblem:
 
     grasp: Grasp
     virtual: VirtualContact
-    external_wrench: np.ndarray
+    external_wrench: Array
     layout: Layout
 
     @cached_property
-    def scaled_external_wrench(self):
+    def scaled_external_wrench(self) -> Array:
         """External wrench (6,) in the scaled units of the equilibrium."""
         if not self.external_wrench.any():
             return NO_WRENCH
         return self.grasp.scaled_wrench(self.external_wrench)
 
     @cached_property
-    def equation_values(self):
+    def equation_values(self) -> Array:
         """E's stored entries, row by row, as the layout orders them."""
         columns = np.concatenate(
             [-self.grasp.scaled_matrix.reshape(6, -1), self.virtual.columns], axis=1)
         return np.concatenate([columns[:, self.layout.source].ravel(),
                                self.layout.bound_entries, *self._joint_entries()])
 
-    def _joint_entries(self):
+    def _joint_entries(self) -> list[Array]:
         joints = self.grasp.joint_rows
         if joints is None:
             return []
@@ -104,7 +107,7 @@ class ConicProblem:
         return [line[:, source].ravel() for source in self.layout.joint_sources]
 
     @cached_property
-    def E(self):
+    def E(self) -> Array:
         """Left side of the equations (rows, variables), dense, to look at and to test with."""
         E = np.zeros(self.layout.shape)
         for row in range(E.shape[0]):
@@ -113,31 +116,32 @@ class ConicProblem:
         return E
 
     @cached_property
-    def e(self):
+    def e(self) -> Array:
         """Right side of the equations (rows,)."""
         joints = self.grasp.joint_rows
         limits = [] if joints is None else [joints.b - joints.g, 2.0 * joints.b]
         return np.concatenate([self.scaled_external_wrench, self.layout.bound_right, *limits])
 
     @cached_property
-    def c(self):
+    def c(self) -> Array:
         """Objective (variables,)."""
         objective = np.zeros(self.layout.shape[1])
         objective[self.layout.virtual] = self.virtual.objective
         return objective
 
     @property
-    def cones(self):
+    def cones(self) -> Cones:
         """K as (kind, dimension) in the order of u; kind is 'nonnegative' or 'second_order'."""
         return self.layout.cones
 
     @property
-    def reach(self):
+    def reach(self) -> float:
         """Largest scaled force that the caps alone would allow; alpha's natural size, a0."""
         return self.grasp.cap_total
 
 
-def build_problem(grasp, task, external_wrench=None):
+def build_problem(grasp: Grasp, task: TaskWrench | TaskCone,
+                  external_wrench: ArrayLike | None = None) -> ConicProblem:
     """
     State a task wrench or a task cone as a conic program.
 
@@ -177,7 +181,8 @@ def build_problem(grasp, task, external_wrench=None):
     return assemble(grasp, virtual, external_wrench)
 
 
-def assemble(grasp, virtual, external_wrench=None):
+def assemble(grasp: Grasp, virtual: VirtualContact,
+             external_wrench: ArrayLike | None = None) -> ConicProblem:
     """Put a grasp and a virtual contact together; ``build_problem`` is the way for tasks."""
     if external_wrench is None:
         load = NO_WRENCH

@@ -15,7 +15,9 @@ from dataclasses import dataclass
 import math
 
 from grasp_quality import bounds, friction_cone, judge, kernel_solver
-from grasp_quality.arrays import frozen
+from grasp_quality.arrays import Array, frozen
+from grasp_quality.grasp import Grasp
+from grasp_quality.problem import ConicProblem
 import numpy as np
 
 GAP_TOLERANCE = 1e-6       # of max(objective, 1e-3 a0)
@@ -64,31 +66,31 @@ class Proof:
     upper: float
     residual: float
     imbalance: float
-    cone_usage: np.ndarray
+    cone_usage: Array
     bound_usage: float
-    multiplier: np.ndarray
-    bound_multiplier: np.ndarray
+    multiplier: Array
+    bound_multiplier: Array
     size: float
-    joint_usage: np.ndarray
-    joint_multiplier: np.ndarray
+    joint_usage: Array
+    joint_multiplier: Array
 
     @property
-    def usage(self):
+    def usage(self) -> float:
         """Largest cone usage of a contact."""
         return float(self.cone_usage.max())
 
     @property
-    def gap(self):
+    def gap(self) -> float:
         """Upper bound minus objective, as a share of max(objective, 1e-3 a0)."""
         return (self.upper - self.objective) / max(abs(self.objective), 1e-3 * self.size)
 
     @property
-    def holds(self):
+    def holds(self) -> bool:
         """Whether the forces are admissible and the gap is within tolerance."""
         return bool(self.gap <= GAP_TOLERANCE and self.admissible)
 
     @property
-    def admissible(self):
+    def admissible(self) -> bool:
         """Whether residual and use of cones, bound and joints are within tolerance."""
         return bool(
             self.residual <= RESIDUAL_TOLERANCE
@@ -97,14 +99,14 @@ class Proof:
             and self.bound_usage <= 1.0 + USAGE_TOLERANCE
             and self.joint_usage.max(initial=0.0) <= 1.0 + JOINT_TOLERANCE)
 
-    def __str__(self):
+    def __str__(self) -> str:
         """State these numbers in one line."""
         return (f'gap {self.gap:.2g}, residual {self.residual:.2g}, usage {self.usage:.12g}, '
                 f'use of the bound {self.bound_usage:.12g}, of the joints '
                 f'{self.joint_usage.max(initial=0.0):.12g}')
 
 
-def prove(problem, shares, values, multipliers):
+def prove(problem: ConicProblem, shares: Array, values: Array, multipliers: Array) -> Proof:
     """
     Judge an answer.
 
@@ -134,13 +136,13 @@ def prove(problem, shares, values, multipliers):
         per_contact = np.maximum(per_contact, problem.layout.contact_multipliers(nu))
         bound_total = bounds.support(per_contact, grasp.bound, grasp.groups)
     slack = _virtual_slack(problem, multipliers, per_contact, bound_total)
-    upper = multipliers[:6] @ problem.scaled_external_wrench
+    upper = float(multipliers[:6] @ problem.scaled_external_wrench)
     joints = grasp.joint_rows
     if joints is not None:
         spreads = np.abs(multipliers[6:])
         if virtual.role == 'pressing':
             spreads = problem.layout.joint_spreads(nu)
-            slack += joints.pressing @ multipliers[6:] + joints.b @ spreads
+            slack += float(joints.pressing @ multipliers[6:] + joints.b @ spreads)
         upper += joints.cost(multipliers[6:], spreads)
     if virtual.role != 'widening':
         upper += bound_total
@@ -158,18 +160,15 @@ def prove(problem, shares, values, multipliers):
         upper, multipliers, per_contact = 0.0, np.zeros_like(multipliers), np.zeros(len(grasp))
     if virtual.role == 'task' and virtual.objective[0] > 0.0:
         values = held(values, upper)
-    balance = (grasp.scaled_matrix.reshape(6, -1) @ shares.ravel()
-               + problem.scaled_external_wrench)
-    widening = virtual.role == 'widening'
+    load, widening = problem.scaled_external_wrench, virtual.role == 'widening'
     allowed = values[0] if widening else 1.0
-    applied = 0.0 if widening else virtual.columns @ values
-    balance = balance - applied
+    applied: Array | float = 0.0 if widening else virtual.columns @ values
+    balance = grasp.scaled_matrix.reshape(6, -1) @ shares.ravel() + load - applied
     press = values[0] if virtual.role == 'pressing' else 0.0
     used = bounds.gauge(shares[:, 2] + press, grasp.bound, grasp.groups)
-    load = problem.scaled_external_wrench
     size_of_forces = max(problem.reach * allowed, math.sqrt(load @ load))
     left = math.sqrt(balance @ balance)
-    balanced = math.sqrt(max(load @ load, np.vdot(applied, applied)))
+    balanced = math.sqrt(max(float(load @ load), float(np.vdot(applied, applied))))
     return Proof(
         objective=float(virtual.objective @ values), upper=float(upper),
         residual=left / size_of_forces,
@@ -182,7 +181,7 @@ def prove(problem, shares, values, multipliers):
         joint_multiplier=frozen(multipliers[6:]))
 
 
-def _judged(problem, shares, values, multiplier):
+def _judged(problem: ConicProblem, shares: Array, values: Array, multiplier: Array) -> Proof:
     """Judge an answer to a question for the largest alpha of one wrench, by ``judge``."""
     grasp = problem.grasp
     block, _, groups = grasp.blocks
@@ -198,13 +197,13 @@ def _judged(problem, shares, values, multiplier):
         bound_multiplier=frozen(per_group[groups] * scale), joint_multiplier=NO_JOINTS)
 
 
-def held(values, upper):
+def held(values: Array, upper: float) -> Array:
     """Values of a task with the first between zero and its bound, the others in proportion."""
     first = max(0.0, min(float(values[0]), float(upper)))
     return values * (first / values[0]) if first > 0.0 else np.zeros(len(values))
 
 
-def worth_of(grasp, multipliers):
+def worth_of(grasp: Grasp, multipliers: Array) -> tuple[Array, Array, float]:
     """
     Value what each contact can do along a scaled lambda.
 
@@ -234,17 +233,18 @@ def worth_of(grasp, multipliers):
     return worth, per_contact, bounds.support(worth, grasp.bound, grasp.groups)
 
 
-def _virtual_slack(problem, multipliers, per_contact, bound_total):
+def _virtual_slack(problem: ConicProblem, multipliers: Array, per_contact: Array, total: float
+                   ) -> float:
     """Left side of the virtual contact's dual condition: axis minus norm of the rest."""
     virtual = problem.virtual
     if virtual.role == 'widening':
-        return -bound_total
+        return -total
     along = multipliers[:6] @ virtual.columns
     if virtual.is_cone:
-        return along[0] - np.sqrt(along[1:] @ along[1:])
+        return float(along[0]) - math.sqrt(along[1:] @ along[1:])
     if virtual.role == 'pressing':
         # the other variables are tasks, alpha >= 0: a lambda that gains by one bounds nothing
         size = max(np.abs(multipliers[:6]).max(), per_contact.max())
         free = (along[1:] < -FREE_TASK * size).any()
-        return -np.inf if free else along[0] + per_contact.sum()
-    return along[0]
+        return -np.inf if free else float(along[0] + per_contact.sum())
+    return float(along[0])

@@ -4,7 +4,7 @@
 
 from dataclasses import dataclass
 
-import numpy as np
+from grasp_quality.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,12 +25,12 @@ class RawAnswer:
 
     """
 
-    shares: np.ndarray
-    values: np.ndarray
-    multipliers: np.ndarray
+    shares: Array
+    values: Array
+    multipliers: Array
     status: str
 
     @property
-    def solved(self):
+    def solved(self) -> bool:
         """Whether the solver met its tolerances; almost solved is not solved."""
         return self.status == 'Solved'

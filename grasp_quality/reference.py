@@ -12,12 +12,20 @@ Physical units, one norm cone a contact, one constraint a rule, nothing shared w
 CVXPY is needed by this module alone; it is too slow for the live path (docs/performance.md).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import Any
 
 import cvxpy as cp
+from grasp_quality.arrays import Array
+from grasp_quality.contact import Contact
 from grasp_quality.grasp import Grasp
+from grasp_quality.task import TaskCone
 import numpy as np
+from numpy.typing import ArrayLike
 
+Numbers = Any  # ArrayLike, or an Expression of CVXPY, which has no types
 SOLVER_SETTINGS = {
     'solver': cp.CLARABEL, 'tol_gap_abs': 1e-9, 'tol_gap_rel': 1e-9, 'tol_feas': 1e-9}
 
@@ -43,13 +51,14 @@ class Statement:
     forces: cp.Variable
     value: cp.Variable
 
-    def solve(self, **settings):
+    def solve(self, **settings: Any) -> bool:
         """Solve with tight tolerances, which ``settings`` override; True when optimal."""
         self.problem.solve(**{**SOLVER_SETTINGS, **settings})
-        return self.problem.status == cp.OPTIMAL
+        return bool(self.problem.status == cp.OPTIMAL)
 
 
-def state_task_wrench(grasp, wrench, external_wrench=None, barrier_weight=0.0):
+def state_task_wrench(grasp: Grasp, wrench: Numbers, external_wrench: Numbers = None,
+                      barrier_weight: float = 0.0) -> Statement:
     """
     State eq. (11): maximise alpha + eps sum_i log det P_i(x_i) with G x + F_ext = alpha F.
 
@@ -81,7 +90,8 @@ def state_task_wrench(grasp, wrench, external_wrench=None, barrier_weight=0.0):
         *_bound(grasp, forces[:, 2], 1.0)]), forces, alpha)
 
 
-def state_task_cone(grasp, task, external_wrench=None):
+def state_task_cone(grasp: Grasp, task: TaskCone,
+                    external_wrench: ArrayLike | None = None) -> Statement:
     """
     State a task cone (section IV): the farthest wrench along its axis that stays inside it.
 
@@ -109,7 +119,7 @@ def state_task_cone(grasp, task, external_wrench=None):
         *_bound(grasp, forces[:, 2], 1.0)]), forces, value)
 
 
-def state_minimum_forces(grasp, external_wrench):
+def state_minimum_forces(grasp: Grasp, external_wrench: ArrayLike) -> Statement:
     """
     State the dual problem (section III): the smallest forces with G x + F_ext = 0.
 
@@ -133,7 +143,7 @@ def state_minimum_forces(grasp, external_wrench):
         *_bound(grasp, forces[:, 2], peak)]), forces, peak)
 
 
-def state_force_closure(grasp):
+def state_force_closure(grasp: Grasp) -> Statement:
     """
     State the internal force with the largest margin: |(t/mu, m_n/gamma)| <= n - margin f_max.
 
@@ -155,20 +165,20 @@ def state_force_closure(grasp):
         *_bound(grasp, forces[:, 2], 1.0)]), forces, margin)
 
 
-def _wrench(grasp, forces):
+def _wrench(grasp: Grasp, forces: cp.Variable) -> cp.Expression:
     """G x (6,), eq. (4)."""
     return sum(grasp.matrix[:, i] @ forces[i] for i in range(len(grasp)))
 
 
-def _load(external_wrench):
+def _load(external_wrench: Numbers) -> Array | cp.Expression:
     return np.zeros(6) if external_wrench is None else _numbers(external_wrench)
 
 
-def _numbers(wrench):
+def _numbers(wrench: Numbers) -> Array | cp.Expression:
     return wrench if isinstance(wrench, cp.Expression) else np.asarray(wrench, dtype=np.float64)
 
 
-def _parts(contact, x):
+def _parts(contact: Contact, x: cp.Expression) -> tuple[list[cp.Expression], list[cp.Expression]]:
     """Friction part (t1/mu, t2/mu, m_n/gamma) of a force, and its components that must be zero."""
     mu, gamma = contact.effective_friction, contact.effective_torsional_friction
     parts = [(x[0], mu), (x[1], mu), (x[3], gamma)]
@@ -176,7 +186,8 @@ def _parts(contact, x):
         part for part, size in parts if size == 0.0]
 
 
-def _cones(grasp, forces, margin=0.0):
+def _cones(grasp: Grasp, forces: cp.Variable,
+           margin: cp.Variable | float = 0.0) -> list[cp.Constraint]:
     """Eq. (1) to (3): the friction cone of every contact, pulled in by ``margin`` f_max."""
     constraints = []
     for contact, x in zip(grasp.contacts, forces):
@@ -187,7 +198,8 @@ def _cones(grasp, forces, margin=0.0):
     return constraints
 
 
-def _joints(grasp, forces, margin=0.0):
+def _joints(grasp: Grasp, forces: cp.Variable,
+            margin: cp.Variable | float = 0.0) -> list[cp.Constraint]:
     """|T x + tau_g| <= (1 - margin) tau_max of every joint that has a limit."""
     limits = grasp.joint_limits
     return [] if limits is None else [
@@ -197,7 +209,7 @@ def _joints(grasp, forces, margin=0.0):
             limits.torque_matrix, limits.gravity_torques, limits.max_torques)]
 
 
-def _log_det(contact, x):
+def _log_det(contact: Contact, x: cp.Expression) -> cp.Expression:
     """Return log det P_i up to a constant: log(n^2 - |friction|^2), or log n without it."""
     carried, _ = _parts(contact, x)
     if not carried:
@@ -207,7 +219,7 @@ def _log_det(contact, x):
     return cp.log(x[2]) + cp.log(x[2] - cp.sum(cp.quad_over_lin(cp.hstack(carried), x[2])))
 
 
-def _bound(grasp, normals, size):
+def _bound(grasp: Grasp, normals: cp.Expression, size: cp.Variable | float) -> list[cp.Constraint]:
     """Bound the normals: the sum of n_i / f_max,i over each group, or the norm of all."""
     shares = cp.multiply(normals, 1.0 / grasp.max_normal_forces)
     if grasp.bound == 'l2':

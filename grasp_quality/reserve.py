@@ -11,6 +11,7 @@ alpha_upper - alpha is the price. See docs/continuity.md.
 """
 
 import dataclasses
+from typing import cast
 
 from grasp_quality import friction_cone
 from grasp_quality.arrays import frozen
@@ -98,4 +99,4 @@ def with_forces(problem: ConicProblem, solution: Solution, shares: Array, values
         cone_usage=frozen(np.where(loaded, friction_cone.usage_of_shares(shares), 0.0)),
         proof=dataclasses.replace(
             proof, objective=alpha / unit, upper=solution.alpha_upper / unit,
-            size=solution.proof.size), center=None)
+            size=cast(Proof, solution.proof).size), center=None)

@@ -7,12 +7,19 @@ Grasps of one pattern (contact count and groups of the bound) share arrays. Call
 of another file (see ``kernel``).
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 import math
+from typing import TYPE_CHECKING
 
-from grasp_quality.grasp import COINCIDENT
+from grasp_quality.arrays import Array, Ints
+from grasp_quality.grasp import COINCIDENT, Grasp
 import numba
 import numpy as np
+
+if TYPE_CHECKING:
+    from grasp_quality.grasp_set import GraspSet
 
 COMPILE = {'cache': True, 'error_model': 'numpy', 'nogil': True}
 
@@ -36,18 +43,18 @@ class Scaled:
 
     """
 
-    groups: np.ndarray
+    groups: Ints
     group_count: int
-    blocks: np.ndarray
-    units: np.ndarray
-    centers: np.ndarray
-    lever_arms: np.ndarray
-    force_scales: np.ndarray
-    reaches: np.ndarray
-    least_caps: np.ndarray
+    blocks: Array
+    units: Array
+    centers: Array
+    lever_arms: Array
+    force_scales: Array
+    reaches: Array
+    least_caps: Array
 
     @classmethod
-    def of(cls, grasp):
+    def of(cls, grasp: Grasp) -> Scaled:
         """Take over what one Grasp has worked out."""
         block, _, groups = grasp.blocks
         return cls(groups, max(grasp.groups) + 1, block[None], np.array(grasp.force_units)[None],
@@ -56,7 +63,7 @@ class Scaled:
                    np.array([grasp.least_cap]))
 
     @classmethod
-    def of_rows(cls, grasps, members):
+    def of_rows(cls, grasps: GraspSet, members: Ints) -> Scaled:
         """Scale the grasps at these indices of a GraspSet, all of one pattern."""
         first = grasps.starts[members[0]]
         k = int(grasps.starts[members[0] + 1] - first)
@@ -71,7 +78,7 @@ class Scaled:
             scaled.least_caps)
         return scaled
 
-    def wrenches(self, wrenches, which):
+    def wrenches(self, wrenches: Array, which: Ints) -> Array:
         """Scale tasks or loads, one a row, each for the grasp that ``which`` names."""
         scaled = np.empty((len(which), 6))
         scale_wrenches(wrenches, which, self.centers, self.lever_arms, self.force_scales, scaled)
@@ -79,8 +86,10 @@ class Scaled:
 
 
 @numba.njit(**COMPILE)
-def scale_grasps(starts, members, groups, group_count, positions, rotations, friction, torsional,
-                 caps, blocks, units, centers, lever_arms, force_scales, reaches, least_caps):
+def scale_grasps(starts: Ints, members: Ints, groups: Ints, group_count: int, positions: Array,
+                 rotations: Array, friction: Array, torsional: Array, caps: Array, blocks: Array,
+                 units: Array, centers: Array, lever_arms: Array, force_scales: Array,
+                 reaches: Array, least_caps: Array) -> None:
     """Fill the arrays of ``Scaled``."""
     k = len(groups)
     best = np.empty(group_count)
@@ -136,7 +145,8 @@ def scale_grasps(starts, members, groups, group_count, positions, rotations, fri
 
 
 @numba.njit(**COMPILE)
-def scale_wrenches(wrenches, which, centers, lever_arms, force_scales, scaled):
+def scale_wrenches(wrenches: Array, which: Ints, centers: Array, lever_arms: Array,
+                   force_scales: Array, scaled: Array) -> None:
     """Express wrenches about the grasps' centres, in shares of force scale and lever arm."""
     for n in range(len(which)):
         m = which[n]

@@ -7,21 +7,31 @@ What the multipliers say about single contacts: worth of friction, and which one
 a force is worth to the task, less what it costs the joints (docs/derivations.md).
 """
 
-from grasp_quality.arrays import frozen
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from grasp_quality.arrays import Array, frozen
 from grasp_quality.contact import ContactModel
+from grasp_quality.grasp import Grasp
 from grasp_quality.wrench import cross, skew
 import numpy as np
+
+if TYPE_CHECKING:
+    from grasp_quality.problem import ConicProblem
+    from grasp_quality.solution import Solution
 
 NEGLIGIBLE = 1e-6  # share of alpha below which a cap is worth nothing to the task
 
 
-def friction_worth(grasp, h):
+def friction_worth(grasp: Grasp, h: Array) -> Array:
     """Worth of the friction part of each contact at normal force one, (k,)."""
     t1, t2, _, moment = (h * grasp.scales).T
-    return np.sqrt(t1 * t1 + t2 * t2 + moment * moment)
+    worth: Array = np.sqrt(t1 * t1 + t2 * t2 + moment * moment)
+    return worth
 
 
-def friction_slope(grasp, h):
+def friction_slope(grasp: Grasp, h: Array) -> Array:
     """Slope of the worth of each contact by mu at normal force one, (k,); 0 in an FPC contact."""
     mu, along = grasp.scales[:, 0], friction_worth(grasp, h)
     square = h[:, 0] ** 2 + h[:, 1] ** 2
@@ -31,20 +41,22 @@ def friction_slope(grasp, h):
     return slope
 
 
-def limit(worth, alpha):
+def limit(worth: Array, alpha: float) -> int | None:
     """Index of the limit that is worth most, of contacts (and joints behind); None for none."""
     best = int(np.argmax(worth))
     return best if worth[best] > NEGLIGIBLE * max(alpha, 1e-300) else None
 
 
-def name_of(grasp, i):
+def name_of(grasp: Grasp, i: int | None) -> str:
     """Name of a contact, or of a joint counted on behind them; '' for None."""
     if i is None:
         return ''
-    return grasp.name_of(i) if i < len(grasp) else grasp.joint_limits.names[i - len(grasp)]
+    if i < len(grasp) or grasp.joint_limits is None:
+        return grasp.name_of(i)
+    return grasp.joint_limits.names[i - len(grasp)]
 
 
-def reason(grasp, h, i):
+def reason(grasp: Grasp, h: Array, i: int | None) -> str:
     """Tell whether friction is most of what a stronger press of contact i is worth."""
     if i is None:
         return ''
@@ -53,7 +65,7 @@ def reason(grasp, h, i):
     return 'slip' if friction_worth(grasp, h)[i] >= abs(h[i, 2]) else 'cap'
 
 
-def local_worth(grasp, multiplier, joint_multiplier):
+def local_worth(grasp: Grasp, multiplier: Array, joint_multiplier: Array) -> Array:
     """Worth h (k, 4) of every contact's local force, from those of wrench (6,) and joints (j,)."""
     # about the contacts' centre, where nothing cancels: a wrench's worth moves like a velocity
     worth = multiplier.copy()
@@ -61,10 +73,11 @@ def local_worth(grasp, multiplier, joint_multiplier):
     h = (worth @ grasp.centered_matrix.reshape(6, -1)).reshape(-1, 4)
     if grasp.joint_limits is None:
         return h
-    return h - np.einsum('j,jki->ki', joint_multiplier, grasp.joint_limits.torque_matrix)
+    price: Array = np.einsum('j,jki->ki', joint_multiplier, grasp.joint_limits.torque_matrix)
+    return h - price
 
 
-def position_slope(solution):
+def position_slope(solution: Solution) -> Array:
     """
     Slope of alpha by the position of each contact (k, 3) [1/m] in object axes: lambda . dG x.
 
@@ -75,7 +88,7 @@ def position_slope(solution):
     return cross(force, solution.multiplier[3:])
 
 
-def rotation_slope(solution):
+def rotation_slope(solution: Solution) -> Array:
     """
     Slope of alpha by small turns of each contact frame about object axes (k, 3) [1/rad].
 
@@ -90,7 +103,7 @@ def rotation_slope(solution):
     return cross(force, along) + cross(moment, turn)
 
 
-def _in_object(solution):
+def _in_object(solution: Solution) -> tuple[Array, Array]:
     """Return forces and moments (k, 3) of the slopes, in object axes; zero if infeasible."""
     grasp, local = solution.grasp, solution.reference_forces
     if not len(local):
@@ -99,7 +112,7 @@ def _in_object(solution):
     return force, grasp.rotations[:, :, 2] * local[:, 3:]
 
 
-def dimensional_multiplier(problem, multiplier):
+def dimensional_multiplier(problem: ConicProblem, multiplier: Array) -> Array:
     """Turn a scaled lambda (6,) into d alpha / d F_ext about the object frame's origin."""
     grasp = problem.grasp
     worth = multiplier * (problem.virtual.unit / grasp.force_scale)

@@ -13,7 +13,7 @@ import enum
 from functools import cached_property
 
 from grasp_quality import sensitivity
-from grasp_quality.arrays import frozen
+from grasp_quality.arrays import Array, Bools, frozen
 from grasp_quality.force_center import ForceCenter
 from grasp_quality.grasp import Grasp
 from grasp_quality.proof import NO_JOINTS, Proof
@@ -78,46 +78,46 @@ class Solution:
     alpha_lower: float
     holdable: bool
     pinned: bool
-    wrench: np.ndarray
-    forces: np.ndarray
-    cone_usage: np.ndarray
-    proof: Proof
-    multiplier: np.ndarray
-    bound_multiplier: np.ndarray
-    reference_forces: np.ndarray
-    joint_multiplier: np.ndarray
+    wrench: Array
+    forces: Array
+    cone_usage: Array
+    proof: Proof | None
+    multiplier: Array
+    bound_multiplier: Array
+    reference_forces: Array
+    joint_multiplier: Array
     barrier_weight: float = 0.0
-    center: ForceCenter = None
+    center: ForceCenter | None = None
 
     @property
-    def feasible(self):
+    def feasible(self) -> bool:
         """Whether there are forces: any status but INFEASIBLE."""
         return self.status is not Status.INFEASIBLE
 
     @property
-    def alpha_interval(self):
+    def alpha_interval(self) -> tuple[float, float]:
         """Feasible factors (alpha_lower, alpha)."""
         return self.alpha_lower, self.alpha
 
     @property
-    def friction_margin(self):
+    def friction_margin(self) -> float:
         """1 minus the largest cone usage; 0 when infeasible."""
         return 1.0 - float(self.cone_usage.max()) if self.feasible else 0.0
 
     @property
-    def dalpha_dexternal_wrench(self):
+    def dalpha_dexternal_wrench(self) -> Array:
         """Return the slope of the largest alpha by the external wrench (6,) [1/N, 1/(N m)]."""
         return self.multiplier
 
     @cached_property
-    def dalpha_dmax_force(self):
+    def dalpha_dmax_force(self) -> Array:
         """Return the slope of the largest alpha by each cap f_max (k,) [1/N]."""
         caps = self.grasp.max_normal_forces
         shares = self.reference_forces[:, 2] / caps if self.feasible else np.zeros(len(caps))
         return frozen(self.bound_multiplier * shares / caps)
 
     @cached_property
-    def dalpha_dfriction(self):
+    def dalpha_dfriction(self) -> Array:
         """Return the slope of the largest alpha by each friction coefficient mu (k,) [-]."""
         if not self.feasible:
             return frozen(np.zeros(len(self.grasp)))
@@ -125,45 +125,45 @@ class Solution:
         return frozen(self.reference_forces[:, 2] * slope)
 
     @property
-    def dalpha_dmax_torque(self):
+    def dalpha_dmax_torque(self) -> Array:
         """Return the slope of the largest alpha by each joint's tau_max (j,) [1/(N m)]."""
         return np.abs(self.joint_multiplier)
 
     @property
-    def joint_torques(self):
+    def joint_torques(self) -> Array:
         """Motor torques T x + tau_g (j,) [N m] of the forces; (0,) when infeasible."""
         limits = self.grasp.joint_limits
         return limits.torques(self.forces) if self.feasible and limits else NO_JOINTS
 
     @cached_property
-    def dalpha_dposition(self):
+    def dalpha_dposition(self) -> Array:
         """Return the slope by each contact's position (k, 3) [1/m], in object axes."""
         return frozen(sensitivity.position_slope(self))
 
     @cached_property
-    def dalpha_drotation(self):
+    def dalpha_drotation(self) -> Array:
         """Return the slope by turns of each contact frame about object axes (k, 3) [1/rad]."""
         return frozen(sensitivity.rotation_slope(self))
 
     @cached_property
-    def limiting_contact(self):
+    def limiting_contact(self) -> str:
         """Name of the contact, or joint, whose limit is worth most to the task; '' for none."""
         return sensitivity.name_of(self.grasp, self._limit)
 
     @cached_property
-    def limiting_reason(self):
+    def limiting_reason(self) -> str:
         """Why: 'slip' (a larger cap helps mostly by friction), 'cap', 'joint', or '' for none."""
         return sensitivity.reason(self.grasp, self.local_multipliers, self._limit)
 
     @cached_property
-    def _limit(self):
+    def _limit(self) -> int | None:
         worth = self.dalpha_dmax_force * self.grasp.max_normal_forces
         if self.grasp.joint_limits is not None:
             worth = np.append(worth, self.dalpha_dmax_torque * self.grasp.joint_limits.max_torques)
         return sensitivity.limit(worth, self.alpha)
 
     @cached_property
-    def local_multipliers(self):
+    def local_multipliers(self) -> Array:
         """Return what each local force is worth (k, 4): G_i^T lambda less the joints' price."""
         return sensitivity.local_worth(self.grasp, self.multiplier, self.joint_multiplier)
 
@@ -183,7 +183,7 @@ class ConeSolution(Solution):
     """
 
     alpha_axis: float = 0.0
-    alpha_worst: float = None
+    alpha_worst: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,14 +213,14 @@ class PolytopeSolution:
 
     status: Status
     quality: float
-    alphas: np.ndarray
-    forces: np.ndarray
-    solutions: tuple
-    parallelotope_scale: float = None
-    guaranteed_scale: float = None
+    alphas: Array
+    forces: Array
+    solutions: tuple[Solution, ...]
+    parallelotope_scale: float | None = None
+    guaranteed_scale: float | None = None
 
     @property
-    def alpha_min(self):
+    def alpha_min(self) -> float:
         """Smallest of the factors."""
         return float(self.alphas.min())
 
@@ -241,7 +241,7 @@ class WrenchMap:
 
     """
 
-    directions: np.ndarray
-    alpha: np.ndarray
-    feasible: np.ndarray
-    forces: np.ndarray = None
+    directions: Array
+    alpha: Array
+    feasible: Bools
+    forces: Array | None = None

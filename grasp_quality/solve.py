@@ -8,20 +8,28 @@ answer that does neither, "almost solved" included, is a SolverError. ``solve`` 
 Solution of a task.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
 import dataclasses
+from typing import TypeVar
 
 from grasp_quality import clarabel_solver, friction_cone, kernel_solver
-from grasp_quality.arrays import frozen
+from grasp_quality.arrays import Array, frozen
 from grasp_quality.bounds import gauge
 from grasp_quality.exceptions import SolverError
+from grasp_quality.grasp import Grasp
 from grasp_quality.infeasibility import infeasibility_margin, INFEASIBILITY_TOLERANCE
-from grasp_quality.proof import GAP_TOLERANCE, held, NO_JOINTS, prove
+from grasp_quality.problem import ConicProblem
+from grasp_quality.proof import GAP_TOLERANCE, held, NO_JOINTS, Proof, prove
+from grasp_quality.raw_answer import RawAnswer
 from grasp_quality.sensitivity import dimensional_multiplier
 from grasp_quality.solution import ConeSolution, NO_FORCES, NO_USAGE, Solution, Status
-from grasp_quality.time_limit import TimeLimit
+from grasp_quality.time_limit import Limit, TimeLimit
 import numpy as np
 
 NO_WRENCH = frozen(np.zeros(6))
+Answer = TypeVar('Answer', bound=Solution)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -33,12 +41,12 @@ class Optimum:
 
     """
 
-    shares: np.ndarray
-    values: np.ndarray
-    proof: object
+    shares: Array
+    values: Array
+    proof: Proof
 
 
-def prove_optimal(problem, time_limit_s=None):
+def prove_optimal(problem: ConicProblem, time_limit_s: Limit = None) -> Optimum | None:
     """
     Solve a conic program until the proof holds.
 
@@ -61,7 +69,7 @@ def prove_optimal(problem, time_limit_s=None):
     return first_proved(problem, _answers(problem, TimeLimit.of(time_limit_s)))
 
 
-def first_proved(problem, answers):
+def first_proved(problem: ConicProblem, answers: Iterable[RawAnswer]) -> Optimum | None:
     """Return the first Optimum of RawAnswers, or None at the first proof that there is none."""
     said = []
     for answer in answers:
@@ -80,7 +88,7 @@ def first_proved(problem, answers):
         'no answer could be proved; the solver said: ' + '; '.join(said), problem, said[-1])
 
 
-def _answers(problem, limit):
+def _answers(problem: ConicProblem, limit: TimeLimit | None) -> Iterator[RawAnswer]:
     """Ask one solver after the other: the kernel where it knows the problem, then Clarabel."""
     if kernel_solver.handles(problem):
         yield kernel_solver.run(problem, limit)
@@ -88,13 +96,13 @@ def _answers(problem, limit):
         yield clarabel_solver.run(problem, attempt, limit)
 
 
-def _optimum(problem, answer):
+def _optimum(problem: ConicProblem, answer: RawAnswer) -> Optimum:
     grasp, role = problem.grasp, problem.virtual.role
     values, shares = answer.values, answer.shares
     # the solver holds the equations to its tolerance only; the bound shall hold exactly
     press = values[0] if role == 'pressing' else 0.0
     used = gauge(shares[:, 2] + press, grasp.bound, grasp.groups)
-    if grasp.joint_limits is not None:
+    if grasp.joint_rows is not None:
         excess = grasp.joint_rows.shrinkage(shares, press)
         if role == 'widening':
             shares, used = shares / excess, used / excess
@@ -109,7 +117,7 @@ def _optimum(problem, answer):
     return Optimum(shares, values, prove(problem, shares, values, answer.multipliers))
 
 
-def solve(problem, time_limit_s=None):
+def solve(problem: ConicProblem, time_limit_s: Limit = None) -> Solution:
     """
     Solve the conic program of a task wrench or a task cone.
 
@@ -154,13 +162,13 @@ def solve(problem, time_limit_s=None):
         reference_forces=forces, joint_multiplier=_joint_multiplier(problem, proof))
 
 
-def task_share(problem, values, alpha_upper):
+def task_share(problem: ConicProblem, values: Array, alpha_upper: float) -> tuple[float, Array]:
     """Alpha and the wrench (6,) that it stands for, held between zero and its upper bound."""
     applied = held(values * problem.virtual.unit, alpha_upper)
     return float(applied[0]), frozen(applied @ problem.virtual.wrenches)
 
 
-def infeasible(kind, grasp):
+def infeasible(kind: type[Answer], grasp: Grasp) -> Answer:
     """Answer that no forces inside cones and caps balance the external wrench with the task."""
     return kind(
         grasp=grasp, status=Status.INFEASIBLE, alpha=0.0, alpha_upper=0.0, alpha_lower=0.0,
@@ -170,14 +178,14 @@ def infeasible(kind, grasp):
             np.zeros(len(grasp.joint_limits or ()))))
 
 
-def _joint_multiplier(problem, proof):
+def _joint_multiplier(problem: ConicProblem, proof: Proof) -> Array:
     """Return d alpha / d tau of each joint (j,) [1/(N m)], signed."""
     joints = problem.grasp.joint_rows
     return NO_JOINTS if joints is None else frozen(
         proof.joint_multiplier * (problem.virtual.unit / joints.units))
 
 
-def _lower_end(problem, alpha, time_limit_s):
+def _lower_end(problem: ConicProblem, alpha: float, time_limit_s: Limit) -> tuple[float, bool]:
     """Smallest feasible alpha >= 0 and whether it is zero; the problem is known to be feasible."""
     downward = dataclasses.replace(problem, virtual=dataclasses.replace(
         problem.virtual, objective=-problem.virtual.objective))
@@ -188,7 +196,8 @@ def _lower_end(problem, alpha, time_limit_s):
     lower = min(max(float(optimum.values[0]), 0.0) * unit, alpha)
     load = problem.scaled_external_wrench
     # against the load's own size, as far as a proof to 1e-9 a0 can tell it from zero
-    noise = max(GAP_TOLERANCE * np.sqrt(load @ load), 2e-3 * GAP_TOLERANCE * problem.reach)
+    noise = max(GAP_TOLERANCE * float(np.sqrt(load @ load)),
+                2e-3 * GAP_TOLERANCE * problem.reach)
     if lower <= unit * noise:
         return 0.0, True
     return lower, False

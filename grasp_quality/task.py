@@ -8,17 +8,21 @@ alpha multiplies them. The paper's view is kept: a task is a virtual contact who
 with a minus sign in the grasp matrix (section IV); ``problem`` builds it.
 """
 
-from dataclasses import dataclass
+from __future__ import annotations
 
-from grasp_quality.arrays import checked, checked_number, frozen
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from grasp_quality.arrays import Array, checked, checked_number, frozen
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.wrench import as_wrench
 import numpy as np
+from numpy.typing import ArrayLike
 
 PARALLEL = 1e-9  # share of the axis below which what the laterals cannot cancel counts as nothing
 
 
-def _nonzero(value, name):
+def _nonzero(value: ArrayLike, name: str) -> Array:
     wrench = as_wrench(value, name)
     if not wrench.any():
         raise InvalidTaskError(f'{name} must not be zero: a zero wrench has no direction to scale')
@@ -36,9 +40,12 @@ class TaskWrench:
 
     """
 
-    wrench: np.ndarray
+    wrench: Array
 
-    def __post_init__(self):
+    if TYPE_CHECKING:  # anything like an array may be given, here and below
+        def __init__(self, wrench: ArrayLike) -> None: ...
+
+    def __post_init__(self) -> None:
         """Validate and copy."""
         object.__setattr__(self, 'wrench', _nonzero(self.wrench, 'task wrench'))
 
@@ -64,13 +71,17 @@ class TaskCone:
 
     """
 
-    axis: np.ndarray
-    lateral_x: np.ndarray
-    lateral_y: np.ndarray
+    axis: Array
+    lateral_x: Array
+    lateral_y: Array
     half_angle: float
     surface_samples: int = 32
 
-    def __post_init__(self):
+    if TYPE_CHECKING:
+        def __init__(self, axis: ArrayLike, lateral_x: ArrayLike, lateral_y: ArrayLike,
+                     half_angle: float, surface_samples: int = 32) -> None: ...
+
+    def __post_init__(self) -> None:
         """Validate and copy."""
         object.__setattr__(self, 'axis', _nonzero(self.axis, 'axis'))
         for name in ('lateral_x', 'lateral_y'):
@@ -87,7 +98,7 @@ class TaskCone:
                 f'{self.lateral_y.tolist()} times no more than tan(half_angle) '
                 f'{np.tan(self.half_angle):g}; choose laterals that are independent of the axis')
 
-    def _holds_zero(self):
+    def _holds_zero(self) -> bool:
         """Whether axis + x lateral_x + y lateral_y can vanish with |(x, y)| <= tan(half_angle)."""
         laterals = np.stack([self.lateral_x, self.lateral_y], axis=1)  # (6, 2)
         least = -np.linalg.lstsq(laterals, self.axis, rcond=None)[0]
@@ -96,12 +107,13 @@ class TaskCone:
                     and np.hypot(*least) <= np.tan(self.half_angle) * (1.0 + PARALLEL))
 
     @property
-    def surface(self):
+    def surface(self) -> Array:
         """Wrenches (surface_samples, 6) on the cone's surface, at axis component one."""
         angles = np.linspace(0.0, 2.0 * np.pi, self.surface_samples, endpoint=False)[:, None]
         radius = np.tan(self.half_angle)
-        return self.axis + radius * (
+        wrenches: Array = self.axis + radius * (
             np.cos(angles) * self.lateral_x + np.sin(angles) * self.lateral_y)
+        return wrenches
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,11 +130,15 @@ class TaskPolytope:
 
     """
 
-    wrenches: np.ndarray
-    weights: np.ndarray = None
+    wrenches: Array
+    weights: Array = None  # type: ignore[assignment]  # never None once made
     parallelotope: bool = True
 
-    def __post_init__(self):
+    if TYPE_CHECKING:
+        def __init__(self, wrenches: ArrayLike, weights: ArrayLike | None = None,
+                     parallelotope: bool = True) -> None: ...
+
+    def __post_init__(self) -> None:
         """Validate and copy."""
         wrenches = checked(self.wrenches, (None, 6), 'task wrenches', InvalidTaskError)
         check_rows(wrenches, 'task_wrenches')
@@ -151,16 +167,27 @@ class TaskEllipsoid:
 
     """
 
-    axes: np.ndarray
+    axes: Array
 
-    def __post_init__(self):
+    if TYPE_CHECKING:
+        def __init__(self, axes: ArrayLike) -> None: ...
+
+    def __post_init__(self) -> None:
         """Validate and copy."""
         axes = checked(self.axes, (None, 6), 'ellipsoid axes', InvalidTaskError)
         check_rows(axes, 'ellipsoid axes')
         object.__setattr__(self, 'axes', axes)
 
+    @property
+    def ends(self) -> Array:
+        """Wrenches (2 n, 6) at the ends of the axes, the opposite ones behind."""
+        return np.concatenate([self.axes, -self.axes])
 
-def check_rows(wrenches, name):
+
+Task = TaskWrench | TaskCone | TaskPolytope | TaskEllipsoid
+
+
+def check_rows(wrenches: Array, name: str) -> None:
     """Refuse an empty list of wrenches (n, 6), and one with a zero row."""
     if not len(wrenches):
         raise InvalidTaskError(f'{name} must hold at least one wrench, got none')

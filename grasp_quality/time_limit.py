@@ -2,9 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """One deadline for a whole question, however many solves it takes."""
 
+from __future__ import annotations
+
 import time
+from typing import TYPE_CHECKING
 
 from grasp_quality.exceptions import SolverTimeoutError
+
+if TYPE_CHECKING:
+    from grasp_quality.problem import ConicProblem
 
 
 class TimeLimit:
@@ -18,21 +24,21 @@ class TimeLimit:
 
     """
 
-    def __init__(self, seconds):
+    def __init__(self, seconds: float) -> None:
         self._seconds = seconds
         self._end = time.monotonic() + seconds
 
     @classmethod
-    def of(cls, limit):
+    def of(cls, limit: Limit) -> TimeLimit | None:
         """Return a TimeLimit of a number of seconds; None and a running TimeLimit stay."""
-        return limit if limit is None or isinstance(limit, cls) else cls(float(limit))
+        return limit if limit is None or isinstance(limit, TimeLimit) else cls(float(limit))
 
     @property
-    def is_over(self):
+    def is_over(self) -> bool:
         """Whether nothing is left."""
         return time.monotonic() >= self._end
 
-    def remaining_s(self, problem=None):
+    def remaining_s(self, problem: ConicProblem | None = None) -> float:
         """
         Return what is left [s], more than 0.
 
@@ -48,3 +54,6 @@ class TimeLimit:
                 f'the time limit of {self._seconds:g} s is over: raise it or ask for less',
                 problem, 'MaxTime')
         return left
+
+
+Limit = TimeLimit | float | None  # how a question's time limit may be given [s]

@@ -15,7 +15,7 @@ from grasp_quality.robust import robust_alpha
 from grasp_quality.task import TaskWrench
 
 
-def warm_up(bound='linf'):
+def warm_up(bound: str = 'linf') -> None:
     """Solve a small grasp of every contact model, with a load and with a barrier weight."""
     for model in ContactModel:
         contacts = [Contact((x, 0.0, 0.0), (-x, 0.0, 0.0), model, torsional_friction=0.005,

@@ -17,6 +17,7 @@ from grasp_quality.many import evaluate_many, Outcome
 from grasp_quality.node_inputs import measured_margin, Scene
 from grasp_quality.solution import Status
 from grasp_quality_cli.bag_inputs import Sample
+from grasp_quality_cli.grasp_file import Task
 from msg_adapters.result_codes import Code, error_code, status_code
 import numpy as np
 from numpy.typing import NDArray
@@ -76,7 +77,7 @@ def answered(samples: Sequence[Sample], barrier_weight: float) -> list[Answered]
 
 def _many(samples: Sequence[Sample], barrier_weight: float) -> list[Answered]:
     """Answer samples with a scene and a task wrench."""
-    scenes = [_scene(sample) for sample in samples]
+    scenes = [_question(sample)[0] for sample in samples]
     loads = [np.zeros(6) if sample.load is None else sample.load for sample in samples]
     tasks = [sample.task.wrench for sample in samples if isinstance(sample.task, TaskWrench)]
     many = evaluate_many([scene.grasp for scene in scenes], np.array(tasks), np.array(loads),
@@ -100,9 +101,9 @@ def _one(sample: Sample, barrier_weight: float) -> Answered:
     if sample.error is not None:
         return _failed(sample, sample.error)
     try:
-        scene = _scene(sample)
-        answer = evaluate(scene.grasp, sample.task, sample.load, barrier_weight)
-        solution, _ = governing(sample.task, answer)
+        scene, task = _question(sample)
+        answer = evaluate(scene.grasp, task, sample.load, barrier_weight)
+        solution, _ = governing(task, answer)
         code, words = status_code(solution.status, pinned=solution.pinned)
         return _row(sample, scene, code, words, solution.alpha, solution.alpha_upper,
                     solution.forces)
@@ -110,10 +111,10 @@ def _one(sample: Sample, barrier_weight: float) -> Answered:
         return _failed(sample, exc)
 
 
-def _scene(sample: Sample) -> Scene:
-    if sample.scene is None:
-        raise ValueError('a sample without an error has a scene')
-    return sample.scene
+def _question(sample: Sample) -> tuple[Scene, Task]:
+    if sample.scene is None or sample.task is None:
+        raise ValueError('a sample without an error has a scene and a task')
+    return sample.scene, sample.task
 
 
 def _failed(sample: Sample, error: Exception) -> Answered:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from grasp_quality.node_inputs import Inputs, Scene
-from grasp_quality.node_parameters import Settings
+from grasp_quality.node_settings import Settings
 from grasp_quality.task import TaskWrench
 from grasp_quality_cli.bag_problems import Problems
 from grasp_quality_cli.bag_record import Record

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from grasp_quality.node_parameters import Settings
+from grasp_quality.node_settings import Settings
 from grasp_quality_cli.bag_answers import answered
 from grasp_quality_cli.bag_inputs import BagInputs, NO_TASK, Sample, SOURCES
 from grasp_quality_cli.bag_problems import Problems

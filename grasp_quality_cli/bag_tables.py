@@ -16,9 +16,9 @@ from types import TracebackType
 from typing import Any, Self
 
 from grasp_quality_cli.bag_answers import Answered
-import pyarrow as pa  # type: ignore[import-untyped]
-import pyarrow.csv as pa_csv  # type: ignore[import-untyped]
-import pyarrow.parquet as pa_parquet  # type: ignore[import-untyped]
+import pyarrow as pa
+import pyarrow.csv as pa_csv
+import pyarrow.parquet as pa_parquet
 
 FORMATS = ('parquet', 'csv')
 NUMBER = pa.float64()

@@ -13,12 +13,12 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from mpl_toolkits.mplot3d.art3d import (  # type: ignore[import-untyped]
+from mpl_toolkits.mplot3d.art3d import (
     Line3DCollection, Poly3DCollection)
-from mpl_toolkits.mplot3d.axes3d import Axes3D  # type: ignore[import-untyped]
+from mpl_toolkits.mplot3d.axes3d import Axes3D
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull  # type: ignore[import-untyped]
+from scipy.spatial import ConvexHull
 
 COLOURS = 'viridis'   # in even steps of lightness, also for the colour-blind
 VIEW = (22.0, -58.0)  # elevation, azimuth [degrees]

@@ -8,11 +8,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from grasp_quality.node_parameters import Settings, TABLE, Type
+from grasp_quality.node_parameters import TABLE, Type
+from grasp_quality.node_settings import Settings
 from grasp_quality_cli.source_item import SourceItem
 from grasp_quality_cli.task_text import ArgumentError
 from grasp_quality_cli.yaml_source import load_yaml, YamlItem
-import yaml  # type: ignore[import-untyped]
+import yaml
 
 PARAMETERS = 'ros__parameters'
 BOOLEANS = {'true': True, 'false': False}

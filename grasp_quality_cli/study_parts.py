@@ -22,9 +22,9 @@ from typing import Any
 from grasp_quality_cli.study_error import StudyError
 from grasp_quality_cli.study_rows import Chunk
 from grasp_quality_cli.study_score import BAD_ROW, SCHEMA
-import pyarrow as pa  # type: ignore[import-untyped]
-import pyarrow.compute as pc  # type: ignore[import-untyped]
-import pyarrow.parquet as pq  # type: ignore[import-untyped]
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.parquet as pq
 
 PLAN = 'study.json'
 LINES = b'lines'

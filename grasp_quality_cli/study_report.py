@@ -10,7 +10,7 @@ from typing import Any
 
 from grasp_quality_cli.study_rows import Chunk
 from grasp_quality_cli.study_score import BAD_ROW
-import pyarrow.compute as pc  # type: ignore[import-untyped]
+import pyarrow.compute as pc
 from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn

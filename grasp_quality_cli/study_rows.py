@@ -17,8 +17,8 @@ from typing import Any, BinaryIO
 
 from grasp_quality_cli.json_source import JsonItem, parse_line
 from grasp_quality_cli.source_item import FileError, SourceItem, WHOLE
-import pyarrow as pa  # type: ignore[import-untyped]
-import pyarrow.parquet as pq  # type: ignore[import-untyped]
+import pyarrow as pa
+import pyarrow.parquet as pq
 
 LONGEST_LINE = 1 << 24  # bytes; a file that is no lines shall not fill the memory
 SUFFIXES = ('.jsonl', '.ndjson', '.parquet')

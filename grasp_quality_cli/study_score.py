@@ -23,7 +23,7 @@ from grasp_quality_cli.study_rows import Chunk
 from grasp_quality_cli.task_text import chosen_task
 import numpy as np
 from numpy.typing import NDArray
-import pyarrow as pa  # type: ignore[import-untyped]
+import pyarrow as pa
 
 BAD_ROW = 'BAD_ROW'
 NO_LOAD = np.zeros(6)

@@ -65,7 +65,7 @@ def dask_workers(scheduler: str) -> Iterator[tuple[Executor, int]]:
     for name in ('distributed.client', 'tornado.application'):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
-        client: Any = Client(  # type: ignore[no-untyped-call]
+        client: Any = Client(
             scheduler, timeout=CONNECT_S, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as exc:
         raise StudyError(f'no Dask scheduler answers at {scheduler}: {exc}') from exc

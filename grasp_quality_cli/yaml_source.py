@@ -14,7 +14,7 @@ import math
 from pathlib import Path
 
 from grasp_quality_cli.source_item import FileError, SourceItem, WHOLE
-import yaml  # type: ignore[import-untyped]
+import yaml
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,17 @@ Zero in a field of a ContactArray means the node's default; a PoseArray takes ev
 poses from the defaults. +z of each pose is the inward normal.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
+from grasp_quality.arrays import Array
 from grasp_quality.contact import ContactModel
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidContactError
 from msg_adapters.errors import InvalidMessageError
+from msg_adapters.frames import Transform
+from msg_adapters.message_types import Contacts, Item, Poses
 from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.poses import pose_arrays
 import numpy as np
@@ -42,11 +47,12 @@ class ContactDefaults:
     friction: float = 0.5
     torsional_friction: float = 0.005
     max_normal_force: float = 10.0
-    names: tuple = ()
-    fingers: tuple = ()
+    names: tuple[str, ...] = ()
+    fingers: tuple[str, ...] = ()
 
 
-def contacts_from_poses(message, defaults, transform=None):
+def contacts_from_poses(message: Poses, defaults: ContactDefaults,
+                        transform: Transform | None = None) -> ContactSet:
     """
     Read a geometry_msgs/PoseArray.
 
@@ -85,7 +91,8 @@ def contacts_from_poses(message, defaults, transform=None):
         names=names[:count], fingers=fingers[:count])
 
 
-def contacts_from_array(message, defaults, transform=None):
+def contacts_from_array(message: Contacts, defaults: ContactDefaults,
+                        transform: Transform | None = None) -> ContactSet:
     """
     Read a grasp_quality_msgs/ContactArray.
 
@@ -100,7 +107,7 @@ def contacts_from_array(message, defaults, transform=None):
             raise InvalidMessageError(f'{field}.name must be unique, got {name!r} twice')
         seen.add(name)
 
-    def numbers(name, default):
+    def numbers(name: str, default: float) -> list[float]:
         return [_number(item, name, default, field) for field, item in items]
 
     return _contact_set(
@@ -112,7 +119,8 @@ def contacts_from_array(message, defaults, transform=None):
         names=names, fingers=[item.finger or name for name, (_, item) in zip(names, items)])
 
 
-def _contact_set(poses, transform, **fields):
+def _contact_set(poses: Sequence[tuple[Array, Array]], transform: Transform | None,
+                 **fields: Any) -> ContactSet:
     positions = np.array([position for position, _ in poses]).reshape(-1, 3)
     rotations = np.array([rotation for _, rotation in poses]).reshape(-1, 3, 3)
     if transform is not None:
@@ -123,7 +131,7 @@ def _contact_set(poses, transform, **fields):
         raise InvalidMessageError(str(exc)) from exc
 
 
-def _model(code, defaults, field):
+def _model(code: int, defaults: ContactDefaults, field: str) -> ContactModel:
     if code == MODEL_DEFAULT:
         return defaults.model
     if code not in MODELS:
@@ -132,7 +140,7 @@ def _model(code, defaults, field):
     return MODELS[code]
 
 
-def _number(item, name, default, field):
+def _number(item: Item, name: str, default: float, field: str) -> float:
     value, = checked_numbers((getattr(item, name),), f'{field}.{name}')
     if value != 0.0 and value < SMALLEST:
         raise InvalidMessageError(

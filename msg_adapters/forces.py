@@ -2,14 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Contact forces: core solutions to messages, finger on object."""
 
+from collections.abc import Sequence
+from typing import cast
+
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import WrenchStamped
+from grasp_quality.arrays import Array
+from grasp_quality.grasp import Grasp
+from grasp_quality.solution import NO_FORCES, NO_USAGE
 from grasp_quality_msgs.msg import ContactForce, ContactForceArray
 from msg_adapters.wrenches import fill_xyz, to_wrench
 import numpy as np
 from std_msgs.msg import Header
 
 
-def force_array(header, grasp=None, forces=(), cone_usage=()):
+def force_array(header: Header, grasp: Grasp | None = None, forces: Array = NO_FORCES,
+                cone_usage: Array = NO_USAGE) -> ContactForceArray:
     """
     Build a ContactForceArray in the object frame.
 
@@ -27,6 +35,7 @@ def force_array(header, grasp=None, forces=(), cone_usage=()):
     """
     message = ContactForceArray(header=header)
     if len(forces):
+        grasp = cast(Grasp, grasp)
         in_object = np.einsum('kij,kj->ki', grasp.rotations, forces[:, :3])
         moments = grasp.rotations[:, :, 2] * forces[:, 3:]
         wrenches = np.concatenate([in_object, moments], axis=1)
@@ -36,7 +45,8 @@ def force_array(header, grasp=None, forces=(), cone_usage=()):
     return message
 
 
-def _contact_force(name, position, normal, wrench, usage):
+def _contact_force(name: str, position: list[float], normal: list[float], wrench: list[float],
+                   usage: float) -> ContactForce:
     message = ContactForce()
     message.name, message.cone_usage = name, usage
     fill_xyz(message.position, position)
@@ -45,7 +55,8 @@ def _contact_force(name, position, normal, wrench, usage):
     return message
 
 
-def contact_frame_wrench(stamp, name, force=(0.0, 0.0, 0.0, 0.0)):
+def contact_frame_wrench(stamp: Time, name: str,
+                         force: Sequence[float] | Array = (0.0, 0.0, 0.0, 0.0)) -> WrenchStamped:
     """
     Build a WrenchStamped in a contact's own frame from its local force (4,).
 

@@ -9,9 +9,12 @@ frame; contacts must name their frame, unless the object_frame parameter does.
 """
 
 from dataclasses import dataclass, field
+from typing import Any
 
+from grasp_quality.arrays import Array
 from grasp_quality.wrench import transform
 from msg_adapters.errors import InvalidMessageError, TransformError
+from msg_adapters.message_types import Stamp
 from msg_adapters.number_checks import checked_numbers
 from msg_adapters.poses import rotation_matrix
 import numpy as np
@@ -21,15 +24,15 @@ import numpy as np
 class Transform:
     """Rigid transform from a source frame: x_target = R x_source + p [m]."""
 
-    R: np.ndarray = field(default_factory=lambda: np.eye(3))
-    p: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    R: Array = field(default_factory=lambda: np.eye(3))
+    p: Array = field(default_factory=lambda: np.zeros(3))
 
-    def wrench(self, wrench):
+    def wrench(self, wrench: Array) -> Array:
         """Express a wrench of the source frame, (6,) [N, N m], in the target frame."""
         return transform(wrench, self.R, self.p)
 
 
-def object_frame_of(contacts_frame, object_frame):
+def object_frame_of(contacts_frame: str, object_frame: str) -> str:
     """
     Name the object frame.
 
@@ -54,7 +57,7 @@ def object_frame_of(contacts_frame, object_frame):
     return frame
 
 
-def transform_to(target, source, buffer, stamp):
+def transform_to(target: str, source: str, buffer: Any, stamp: Stamp) -> Transform | None:
     """
     Find the transform from a source frame to the object frame.
 

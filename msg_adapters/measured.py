@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measured contact wrenches: WrenchStamped to the local force of one contact."""
 
+from grasp_quality.arrays import Array
+from grasp_quality.contact import Contact
 from grasp_quality.wrench import cross
 from msg_adapters.errors import InvalidMessageError
+from msg_adapters.message_types import StampedWrench
 from msg_adapters.wrenches import wrench_array
 import numpy as np
 
 
-def local_force(message, contact, object_frame):
+def local_force(message: StampedWrench, contact: Contact, object_frame: str) -> Array:
     """
     Read the measured wrench of one contact, finger on object.
 

@@ -7,13 +7,16 @@ Nothing between the sun and an atom is excluded; beyond that products overflow, 
 no longer be a number.
 """
 
+from collections.abc import Iterable
+from typing import SupportsFloat
+
 from msg_adapters.errors import InvalidMessageError
 
 LARGEST = 1e12    # of any number in a message, SI units
 SMALLEST = 1e-12  # of a force or wrench that is not zero
 
 
-def checked_numbers(values, name):
+def checked_numbers(values: Iterable[SupportsFloat], name: str) -> tuple[float, ...]:
     """
     Return numbers of a message as a tuple of floats.
 

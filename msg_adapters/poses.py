@@ -4,14 +4,16 @@
 
 import math
 
+from grasp_quality.arrays import Array
 from msg_adapters.errors import InvalidMessageError
+from msg_adapters.message_types import Pose, Quaternion
 from msg_adapters.number_checks import checked_numbers
 import numpy as np
 
 QUATERNION_TOLERANCE = 1e-3  # of the norm, before it is made exact
 
 
-def pose_arrays(pose, name):
+def pose_arrays(pose: Pose, name: str) -> tuple[Array, Array]:
     """
     Read a geometry_msgs/Pose.
 
@@ -38,7 +40,7 @@ def pose_arrays(pose, name):
     return position, rotation_matrix(pose.orientation, f'{name}.orientation')
 
 
-def rotation_matrix(quaternion, name):
+def rotation_matrix(quaternion: Quaternion, name: str) -> Array:
     """Return the rotation matrix (3, 3) of a geometry_msgs/Quaternion of norm one."""
     q = quaternion
     x, y, z, w = float(q.x), float(q.y), float(q.z), float(q.w)

@@ -10,12 +10,12 @@ not be replayed to a late joiner.
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 
-def newest_sample():
+def newest_sample() -> QoSProfile:
     """Sensor streams: the newest sample or none, never a queue, never a retry."""
     return _depth_one(ReliabilityPolicy.BEST_EFFORT)
 
 
-def newest_command():
+def newest_command() -> QoSProfile:
     """Tasks, loads and all outputs: reliable, but only the newest, and never to late joiners."""
     return _depth_one(ReliabilityPolicy.RELIABLE)
 
@@ -27,6 +27,6 @@ def display() -> QoSProfile:
                       durability=DurabilityPolicy.VOLATILE)
 
 
-def _depth_one(reliability):
+def _depth_one(reliability: ReliabilityPolicy) -> QoSProfile:
     return QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=1, reliability=reliability,
                       durability=DurabilityPolicy.VOLATILE)

@@ -41,7 +41,7 @@ PINNED = ('alpha is pinned: the grasp cannot produce the task wrench at all, the
           'alone decides alpha')
 
 
-def error_code(error):
+def error_code(error: BaseException) -> tuple[Code, str]:
     """Return the Code and the words of an exception; one nobody expected is SOLVER_FAILED."""
     for kind, code in CODES:
         if isinstance(error, kind):
@@ -50,7 +50,7 @@ def error_code(error):
             f'internal error, please report it: {type(error).__name__}: {error}')
 
 
-def status_code(status, detail='', pinned=False):
+def status_code(status: Status, detail: str = '', pinned: bool = False) -> tuple[Code, str]:
     """Return the Code and the words of an answer; detail says more where it is infeasible."""
     if status is Status.INFEASIBLE:
         return Code.INFEASIBLE, detail or NO_FORCES

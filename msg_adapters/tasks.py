@@ -2,10 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tasks and loads: service requests and parameters to core tasks, in the object frame."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
+from grasp_quality.arrays import Array
 from grasp_quality.task import TaskCone, TaskPolytope, TaskWrench
 from msg_adapters.errors import InvalidMessageError
+from msg_adapters.frames import Transform
+from msg_adapters.message_types import ConeFields, Framed, PolytopeFields, Wrench
 from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.wrenches import wrench_array
 import numpy as np
@@ -25,8 +30,8 @@ class HeldTask:
 
     """
 
-    task_wrench: object
-    header: object
+    task_wrench: Wrench
+    header: Framed
     kind: int = WRENCH
 
 
@@ -34,8 +39,8 @@ class HeldTask:
 class HeldLoad:
     """An external wrench that is held, as a WrenchStamped."""
 
-    wrench: object
-    header: object
+    wrench: Wrench
+    header: Framed
 
 
 @dataclass(frozen=True)
@@ -45,17 +50,19 @@ class NoFrame:
     frame_id: str = ''
 
 
-def load_from(message, transform, name='external_wrench'):
+def load_from(message: Wrench, transform: Transform | None,
+              name: str = 'external_wrench') -> Array:
     """Read an external wrench (6,) [N, N m] in the object frame; all zero is no load."""
     return _moved(wrench_array(message, name), transform)
 
 
-def wrench_task(message, transform, name='task_wrench'):
+def wrench_task(message: Wrench, transform: Transform | None,
+                name: str = 'task_wrench') -> TaskWrench:
     """Read a geometry_msgs/Wrench as a TaskWrench; it must not be zero."""
     return TaskWrench(_nonzero(wrench_array(message, name), transform, name))
 
 
-def cone_task(message, transform, surface_samples):
+def cone_task(message: ConeFields, transform: Transform | None, surface_samples: int) -> TaskCone:
     """Read axis, lateral_x, lateral_y and half_angle of a request as a TaskCone."""
     return TaskCone(
         _nonzero(wrench_array(message.axis, 'axis'), transform, 'axis'),
@@ -64,7 +71,8 @@ def cone_task(message, transform, surface_samples):
         float(message.half_angle), surface_samples)
 
 
-def polytope_task(message, transform, limit, parallelotope=True):
+def polytope_task(message: PolytopeFields, transform: Transform | None, limit: int,
+                  parallelotope: bool = True) -> TaskPolytope:
     """Read task_wrenches and weights of a request as a TaskPolytope of at most limit wrenches."""
     wrenches = wrench_rows(message.task_wrenches, transform, limit, 'task_wrenches')
     if not len(wrenches):
@@ -77,7 +85,8 @@ def polytope_task(message, transform, limit, parallelotope=True):
     return TaskPolytope(wrenches, weights or None, parallelotope)
 
 
-def wrench_rows(messages, transform, limit, name):
+def wrench_rows(messages: Sequence[Wrench], transform: Transform | None, limit: int,
+                name: str) -> Array:
     """Read a list of wrenches (n, 6), none of them zero, n at most limit."""
     if len(messages) > limit:
         raise InvalidMessageError(
@@ -88,7 +97,8 @@ def wrench_rows(messages, transform, limit, name):
         for i, message in enumerate(messages)]).reshape(-1, 6)
 
 
-def live_task(request, transform, limit):
+def live_task(request: Any, transform: Transform | None,
+              limit: int) -> TaskWrench | TaskCone | TaskPolytope:
     """
     Read a SetTask request for the live loop.
 
@@ -105,11 +115,11 @@ def live_task(request, transform, limit):
         f'kind must be 1 (WRENCH), 2 (CONE) or 3 (POLYTOPE), got {request.kind}')
 
 
-def _moved(wrench, transform):
+def _moved(wrench: Array, transform: Transform | None) -> Array:
     return wrench if transform is None else transform.wrench(wrench)
 
 
-def _nonzero(wrench, transform, name):
+def _nonzero(wrench: Array, transform: Transform | None, name: str) -> Array:
     if not np.abs(wrench).max() >= SMALLEST:
         raise InvalidMessageError(
             f'{name} must not be zero (below {SMALLEST:g}): it has no direction to scale')

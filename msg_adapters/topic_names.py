@@ -9,6 +9,6 @@ TOPIC_RULE = ('names must be letters, digits and single underscores, begin with 
 TOPIC_NAME = re.compile('[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*_?')
 
 
-def names_a_topic(name):
+def names_a_topic(name: str) -> bool:
     """Tell whether a contact's name can stand in a topic."""
     return len(name) <= 64 and TOPIC_NAME.fullmatch(name) is not None

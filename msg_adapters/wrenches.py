@@ -2,11 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Wrenches, points and vectors: message parts to and from arrays, force before torque, SI."""
 
+from collections.abc import Iterable
+from typing import Any
+
+from grasp_quality.arrays import Array
+from msg_adapters.message_types import Wrench, Xyz
 from msg_adapters.number_checks import checked_numbers
 import numpy as np
 
 
-def wrench_array(message, name):
+def wrench_array(message: Wrench, name: str) -> Array:
     """
     Read a geometry_msgs/Wrench.
 
@@ -32,7 +37,7 @@ def wrench_array(message, name):
         (force.x, force.y, force.z, torque.x, torque.y, torque.z), name))
 
 
-def to_wrench(array, message=None):
+def to_wrench(array: Iterable[float], message: Any = None) -> Any:
     """Return a geometry_msgs/Wrench of fx fy fz tx ty tz (6,) [N, N m]; fill message if given."""
     # filling a default message in place takes half the time of giving it new parts
     message = _new_wrench() if message is None else message
@@ -43,11 +48,11 @@ def to_wrench(array, message=None):
     return message
 
 
-def _new_wrench():
+def _new_wrench() -> Any:
     from geometry_msgs.msg import Wrench
     return Wrench()
 
 
-def fill_xyz(message, array):
+def fill_xyz(message: Xyz, array: Iterable[float]) -> None:
     """Write (3,) into a Point or Vector3."""
     message.x, message.y, message.z = map(float, array)

@@ -2,20 +2,34 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 
-# The ament linters, ruff (ruff.toml), the licence headers and the length of the files.
+# The ament linters, ruff (ruff.toml), mypy (mypy.ini), the pins of requirements/, the licence headers
+# and the length of the files.
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 code=0
+types=$(mktemp)
+trap 'rm -f "$types"' EXIT
 folders=()
 for folder in grasp_quality grasp_quality_cli msg_adapters launch test examples benchmarks scripts \
     grasp_quality_msgs grasp_quality_hand; do
     [ -d "$folder" ] && folders+=("$folder")
 done
 
+# beside the others, on another core
+if python -c 'import numpy; raise SystemExit(numpy.__version__ < "2")'; then
+    mypy >"$types" 2>&1 &
+    typing=$!
+else
+    typing= # types of arrays are those of the pinned NumPy; an ordinary ROS brings an older one
+fi
+
 ament_flake8 setup.py "${folders[@]}" || code=1
 ament_pep257 setup.py "${folders[@]}" 2> >(grep -v '^checking ' >&2) || code=1
 
 ruff check --quiet . || code=1
+python scripts/check_requirements.py || code=1
+python -m pip check --disable-pip-version-check --quiet || code=1
+[ -z "$typing" ] || wait "$typing" || { cat "$types"; code=1; }
 
 mapfile -t sources < <(find setup.py env.sh Makefile .ci "${folders[@]}" -type f \
     \( -name '*.py' -o -name '*.sh' -o -name '*.msg' -o -name '*.srv' -o -name 'CMakeLists.txt' \
