@@ -19,6 +19,7 @@ from contextlib import contextmanager
 import ctypes
 import logging
 import multiprocessing
+import os
 import signal
 from typing import Any, TypeVar
 
@@ -39,7 +40,8 @@ def local_workers(count: int) -> Iterator[tuple[Executor, int]]:
         pool = ThreadPoolExecutor(1)
     else:  # spawned, not forked: this process may have threads
         pool = ProcessPoolExecutor(
-            count, multiprocessing.get_context('spawn'), initializer=_end_with_parent)
+            count, multiprocessing.get_context('spawn'), initializer=_end_with_parent,
+            initargs=(os.getpid(),))
     try:
         yield pool, AHEAD * count
     except BrokenProcessPool as exc:
@@ -49,8 +51,10 @@ def local_workers(count: int) -> Iterator[tuple[Executor, int]]:
         pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _end_with_parent() -> None:
+def _end_with_parent(parent: int) -> None:
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:  # it ended before the line above took hold
+        os._exit(1)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent decides
 
 

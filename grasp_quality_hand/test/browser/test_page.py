@@ -106,10 +106,12 @@ def test_a_dead_node_is_called_stale_and_a_new_one_is_found(page, stage):
 
 def test_a_page_finds_a_new_viewer_by_itself(page, stage, tmp_path):
     from page import start_viewer
+    until(lambda: page.updates() > 50, 'a count that tells the viewers apart')
+    before = page.updates()
     assert stage.viewer.end() == 0, stage.viewer.log()
     port = stage.address.rpartition(':')[2]
     stage.viewer, address = start_viewer(
         tmp_path / 'viewer.log', target_node='/page/grasp_quality', port=port)
     assert address == stage.address
-    until(lambda: 0 <= page.updates() < 50, 'the count of the new viewer')
+    until(lambda: 0 <= page.updates() < before, 'the count of the new viewer')
     until(lambda: page.kind() == 'answer', 'an answer of the node')
