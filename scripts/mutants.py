@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 
+Result = tuple[str, Path, str]  # name, file, outcome of a mutant
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / 'build' / 'mutants'
 TOOL, WORK = BUILD / 'tool', BUILD / 'work'
@@ -41,7 +42,7 @@ use_git_change_detection = false
 """
 
 
-def main():
+def main() -> None:
     """Run the mutants, or those that survived the last run, and print what is left."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--survivors', action='store_true',
@@ -58,7 +59,7 @@ def main():
     sys.exit(report())
 
 
-def install():
+def install() -> None:
     """Bring mutmut, pinned, to where it changes nothing else."""
     stamp = TOOL / 'stamp'
     if not stamp.exists() or stamp.read_text() != PINS.read_text():
@@ -70,13 +71,13 @@ def install():
     sys.path.append(str(TOOL))
 
 
-def environment():
+def environment() -> dict[str, str]:
     """Let the copy of the code see mutmut; nothing that another run has left."""
     paths = [os.environ.get('PYTHONPATH', ''), str(TOOL)]
     return {**os.environ, 'PYTHONPATH': os.pathsep.join(filter(None, paths))}
 
 
-def prepare(anew):
+def prepare(anew: bool) -> None:
     """Copy code and tests; of an old run keep the mutants and renew the tests alone."""
     if anew:
         shutil.rmtree(WORK, ignore_errors=True)
@@ -95,12 +96,12 @@ def prepare(anew):
                 path.write_text(without_decorators(path.read_text()))
 
 
-def is_mutated(name):
+def is_mutated(name: str) -> bool:
     """Tell whether a file, by its path in the repository, is one of the modules."""
     return name.startswith(MODULES)
 
 
-def without_decorators(source):
+def without_decorators(source: str) -> str:
     """Spell `@property def x(self): ...` as `def x(self): ...; x = property(x)`."""
     lines = source.splitlines()
     functions = [node for parent in ast.parse(source).body if isinstance(parent, ast.ClassDef)
@@ -108,20 +109,20 @@ def without_decorators(source):
     for node in reversed(functions):
         for decorator in node.decorator_list:
             name = ast.unparse(decorator)
-            lines.insert(node.end_lineno, f'    {node.name} = {name}({node.name})')
+            lines.insert(int(node.end_lineno or 0), f'    {node.name} = {name}({node.name})')
             lines[decorator.lineno - 1] = ''
     return '\n'.join(lines) + '\n'
 
 
-def results():
-    """List (name, path, outcome) of every mutant of the last run."""
+def results() -> list[Result]:
+    """List every mutant of the last run."""
     if not WORK.exists():
         sys.exit('there is no run to report: leave out --report')
     os.chdir(WORK)
-    from mutmut.mutation.data import SourceFileMutationData
-    from mutmut.stats import status_by_exit_code
-    from mutmut.utils.file_utils import walk_mutatable_files
-    found = []
+    from mutmut.mutation.data import SourceFileMutationData  # type: ignore[import-not-found]
+    from mutmut.stats import status_by_exit_code  # type: ignore[import-not-found]
+    from mutmut.utils.file_utils import walk_mutatable_files  # type: ignore[import-not-found]
+    found: list[Result] = []
     for path in sorted(walk_mutatable_files()):
         data = SourceFileMutationData(path=path)
         data.load()
@@ -130,15 +131,15 @@ def results():
     return found
 
 
-def survivors():
+def survivors() -> list[Result]:
     """List what no test has killed; a mutant that runs for ever is as good as dead."""
     return [r for r in results() if r[2] not in ('killed', 'timeout', 'segfault')]
 
 
-def report():
+def report() -> int:
     """Print a table, write the survivors as differences, return the exit code."""
     everything, left = results(), survivors()
-    from mutmut.mutation.diff_apply import get_diff_for_mutant
+    from mutmut.mutation.diff_apply import get_diff_for_mutant  # type: ignore[import-not-found]
     with (BUILD / 'survivors.txt').open('w') as file:
         for name, path, outcome in left:
             file.write(f'# {name}: {outcome}\n{get_diff_for_mutant(name, path=path)}\n')

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Colours tell what they stand for without hue: lightness rises along the map."""
 
-from msg_adapters.colours import alpha_colours, usage_colours
+from msg_adapters.colours import alpha_colours, usage_colours, VIRIDIS
 import numpy as np
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
@@ -23,6 +23,10 @@ def test_the_largest_alpha_is_the_brightest_whatever_its_size():
     for scale in (1e-6, 1.0, 1e6):
         colours = alpha_colours(scale * np.array([0.0, 1.0, 2.0]))
         np.testing.assert_array_equal(colours, alpha_colours([0.0, 1.0, 2.0]))
+
+
+def test_nothing_is_the_darkest_and_the_largest_alpha_the_brightest():
+    np.testing.assert_array_equal(alpha_colours([0, 3]), VIRIDIS[[0, -1]])
 
 
 def test_a_map_of_nothing_is_dark_and_an_empty_one_is_empty():
