@@ -56,4 +56,6 @@ def status_code(status: Status, detail: str = '', pinned: bool = False) -> tuple
         return Code.INFEASIBLE, detail or NO_FORCES
     if status is Status.OPTIMAL_NO_INTERIOR:
         return Code.OPTIMAL, status.value
-    return Code.OPTIMAL, PINNED if pinned else ''
+    if status is Status.OPTIMAL:
+        return Code.OPTIMAL, PINNED if pinned else ''
+    return Code.SOLVER_FAILED, f'internal error, please report it: unknown status {status!r}'

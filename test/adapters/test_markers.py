@@ -222,6 +222,7 @@ def test_the_map_is_a_surface_of_alpha_times_direction(resolution):
     assert (marker.type, marker.ns, marker.header) == (Marker.TRIANGLE_LIST, 'force_map', HEADER)
     assert marker.lifetime.sec == 1 and marker.pose.orientation.w == 1.0
     assert marker.scale.x == marker.scale.y == marker.scale.z == 1.0
+    assert 0.0 <= min(rgba(marker)) <= max(rgba(marker)) <= 1.0
     assert len(marker.points) % 3 == 0 and len(marker.points) == len(marker.colors)
     vertices = {(p.x, p.y, p.z) for p in marker.points}
     wanted = {tuple(v) for v in (SCALE * alphas[:, None] * directions[:, :3]).tolist()}

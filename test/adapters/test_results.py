@@ -47,6 +47,11 @@ def test_a_pinned_alpha_is_told():
     assert status_code(Status.OPTIMAL) == (Code.OPTIMAL, '')
 
 
+def test_what_is_no_known_status_is_no_success():
+    code, words = status_code(None)
+    assert code is Code.SOLVER_FAILED and 'please report it: unknown status None' in words
+
+
 def test_infeasible_is_explained():
     assert status_result(Status.INFEASIBLE).code == ResultCode.INFEASIBLE
     assert 'balance' in status_result(Status.INFEASIBLE).message
