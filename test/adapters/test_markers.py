@@ -178,12 +178,23 @@ def test_arrows_are_told_apart_and_their_heads_are_no_longer_than_half_of_them()
             tail, tip = ends(arrow)
             assert arrow.scale.z <= 0.5 * np.linalg.norm(tip - tail) * (1.0 + EXACT)
             assert arrow.scale.x < arrow.scale.y < shown.grasp.lever_arm
+    longer = grasp_markers(dataclasses.replace(
+        shown, measured=(None, 2.0 * shown.measured[1])), False)
+    assert by_namespace(longer, 'measured_forces')[1].scale.z == (
+        by_namespace(message, 'measured_forces')[1].scale.z)
     force, torque = (by_namespace(message, f'task_{part}')[0] for part in ('force', 'torque'))
     assert torque.scale.x < force.scale.x and torque.scale.y < force.scale.y
     ball = by_namespace(message, 'limiting_contact')[1]
     assert ball.type == Marker.SPHERE
     np.testing.assert_allclose(place(ball), shown.grasp.positions[1], atol=EXACT)
     assert ball.scale.x == ball.scale.y == ball.scale.z < shown.grasp.lever_arm
+
+
+def test_arrows_too_short_to_be_seen_are_not_drawn():
+    reach = grasp().lever_arm
+    pushes = [np.array([0.0, 0.0, share * reach / SCALE, 0.0]) for share in (0.5e-9, 2e-9)]
+    message = grasp_markers(picture(tuple(pushes)), False)
+    assert list(by_namespace(message, 'measured_forces')) == [1]
 
 
 def test_names_stand_outside_of_the_object_and_the_legend_above_it():
