@@ -5,6 +5,7 @@
 from adapter_messages import any_float, BAD_NUMBERS, EXACT, pose, shuffled_axes
 from geometry_msgs.msg import PoseArray, Quaternion
 from grasp_quality import ContactModel
+from grasp_quality.node_parameters import Settings
 from grasp_quality_msgs.msg import Contact as ContactMsg, ContactArray
 from hypothesis import given, strategies
 from msg_adapters.contacts import ContactDefaults, contacts_from_array, contacts_from_poses
@@ -41,6 +42,10 @@ def test_a_pose_array_takes_the_rest_from_the_defaults():
     assert (first.name, second.name) == ('contact_0', 'contact_1')
     assert (first.finger, second.finger) == ('contact_0', 'contact_1')
     assert second.position.tolist() == [1, 0, 0]
+
+
+def test_defaults_are_those_of_the_parameters_of_the_node():
+    assert ContactDefaults() == Settings().contact_defaults
 
 
 def test_poses_are_named_in_order_and_grouped_by_finger():
