@@ -2,8 +2,8 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 
-# The ament linters, ruff (ruff.toml), mypy (mypy.ini), the pins of requirements/, the licence headers
-# and the length of the files.
+# The ament linters, ruff (ruff.toml), mypy (mypy.ini), the pins of requirements/, package.xml, the
+# licence headers and the length of the files.
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 code=0
@@ -15,12 +15,12 @@ for folder in grasp_quality grasp_quality_cli msg_adapters launch test examples 
     [ -d "$folder" ] && folders+=("$folder")
 done
 
-# beside the others, on another core
-if python -c 'import numpy; raise SystemExit(numpy.__version__ < "2")'; then
+# an ordinary ROS brings packages of apt, whose older NumPy has other types
+pinned=
+python -c 'import numpy; raise SystemExit(int(numpy.__version__.split(".")[0]) < 2)' && pinned=yes
+if [ -n "$pinned" ]; then # beside the others, on another core
     mypy >"$types" 2>&1 &
     typing=$!
-else
-    typing= # types of arrays are those of the pinned NumPy; an ordinary ROS brings an older one
 fi
 
 ament_flake8 setup.py "${folders[@]}" || code=1
@@ -28,8 +28,14 @@ ament_pep257 setup.py "${folders[@]}" 2> >(grep -v '^checking ' >&2) || code=1
 
 ruff check --quiet . || code=1
 python scripts/check_requirements.py || code=1
-python -m pip check --disable-pip-version-check --quiet || code=1
-[ -z "$typing" ] || wait "$typing" || { cat "$types"; code=1; }
+python -c 'import sys
+from catkin_pkg.package import parse_package
+for path in sys.argv[1:]:
+    parse_package(path)' package.xml ./*/package.xml || code=1
+if [ -n "$pinned" ]; then
+    python -m pip check --disable-pip-version-check --quiet || code=1
+    wait "$typing" || { cat "$types"; code=1; }
+fi
 
 mapfile -t sources < <(find setup.py env.sh Makefile .ci "${folders[@]}" -type f \
     \( -name '*.py' -o -name '*.sh' -o -name '*.msg' -o -name '*.srv' -o -name 'CMakeLists.txt' \

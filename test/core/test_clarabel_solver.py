@@ -46,6 +46,15 @@ def test_time_limit():
     assert caught.value.problem is problem
 
 
+def test_the_solver_s_own_clock_ends_as_a_timeout_too():
+    settings = quiet()
+    settings.time_limit = 1e-12
+    with pytest.raises(SolverTimeoutError, match='raise it or ask for less') as caught:
+        run_matrices(csc_matrix((1, 1)), np.ones(1), -ONE, -np.ones(1), [NONNEGATIVE(1)], settings,
+                     'the problem')
+    assert (caught.value.problem, caught.value.status) == ('the problem', 'MaxTime')
+
+
 @pytest.mark.parametrize('matrices', [
     (ONE, np.zeros(2), ONE, np.zeros(1), [NONNEGATIVE(1)]),            # q too long
     (csc_matrix((2, 2)), np.zeros(1), ONE, np.zeros(1), [NONNEGATIVE(1)]),  # P too large

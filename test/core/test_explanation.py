@@ -8,7 +8,9 @@ from benchmarks.derivatives import disagreement, problem
 from grasp_quality import (
     Contact, evaluate, explain, Grasp, InvalidTaskError, JointLimits, TaskCone, TaskPolytope,
     TaskWrench)
-from grasp_quality.slopes import changed, changed_along, FIELDS, turn
+from grasp_quality.contact import ContactModel
+from grasp_quality.slopes import (
+    changed, changed_along, FIELDS, largest_alpha, one_sided_slopes, turn)
 from known_grasps import antipodal, cube_of_eight, FX, FY, FZ, single, three_finger, TZ
 import numpy as np
 import pytest
@@ -158,3 +160,11 @@ def test_a_weak_joint_limits_the_task_and_is_named():
     assert found.joint_shares == pytest.approx([1.0], abs=SOLVER)
     assert found.shares == pytest.approx([0.0, 0.0], abs=SOLVER)
     assert 'elbow by its torque limit (100 %)' in found.text
+
+
+def test_friction_of_a_frictionless_contact_has_no_slope():
+    """The pad at x = -1 alone pulls across, mu for each newton that it presses with."""
+    pad, plate = antipodal(0.5).contacts
+    grasp = Grasp([pad, dataclasses.replace(plate, normal=None, model=ContactModel.FPC)])
+    for side in one_sided_slopes(largest_alpha(TaskWrench(FY - TZ), None, None), grasp):
+        assert side.friction == pytest.approx([1.0, 0.0], abs=ONE_SIDED)

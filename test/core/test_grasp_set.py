@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many grasps as arrays: the same facts and the same rules as Grasp objects."""
 
+import dataclasses
+
 from benchmarks.random_grasps import random_grasp
 from grasp_quality import (
     Contact, ContactModel, Grasp, GraspSet, InvalidContactError, InvalidGraspError)
@@ -74,3 +76,13 @@ def test_variations_keep_what_is_left_out():
 def test_bad_input_is_named(make, error, words):
     with pytest.raises(error, match=words):
         make()
+
+
+@pytest.mark.parametrize('fields, words', [
+    ({'starts': [0, 0, 5]}, 'at least one contact'),
+    ({'starts': [1, 2, 5]}, 'at least one contact'),
+    ({'groups': [0, 1]}, 'one entry for each of 5 contacts'),
+    ({'is_l2': [False]}, 'one for each of 2 grasps')])
+def test_arrays_that_do_not_fit_each_other_are_refused(fields, words):
+    with pytest.raises(InvalidGraspError, match=words):
+        dataclasses.replace(GraspSet.of([antipodal(), three_finger()]), **fields)

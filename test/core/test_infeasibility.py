@@ -4,7 +4,7 @@
 
 from grasp_quality import build_problem, evaluate, Grasp, JointLimits, TaskCone, TaskWrench
 from grasp_quality.infeasibility import infeasibility_margin
-from known_grasps import antipodal, FX, FY
+from known_grasps import antipodal, FX, FY, FZ
 import numpy as np
 import pytest
 from tolerances import CLOSED_FORM
@@ -21,8 +21,9 @@ def test_infeasibility_is_a_distance():
 
 @pytest.mark.parametrize('direction', [
     np.zeros(6), np.full(6, np.nan), np.full(6, np.inf), np.full(6, 1e300), np.full(6, 5e-324)])
-def test_infeasibility_is_not_proved_by_rubbish(direction):
-    problem = build_problem(antipodal(0.5), TaskWrench(FX), external_wrench=-0.5 * FY)
+@pytest.mark.parametrize('task', [TaskWrench(FX), TaskCone(FX, FY, FZ, 0.2)])
+def test_infeasibility_is_not_proved_by_rubbish(task, direction):
+    problem = build_problem(antipodal(0.5), task, external_wrench=-0.5 * FY)
     assert not infeasibility_margin(problem, direction) > 0.0
 
 

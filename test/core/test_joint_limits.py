@@ -215,3 +215,13 @@ def test_holding_forces_keep_off_the_limits():
     assert held.forces[1, 2] < 0.3 < free.forces[1, 2]
     assert grasp.joint_limits.usage(held.forces).max() < 1.0
     assert hold_forces(grasp, -0.4 * FY).status is Status.INFEASIBLE
+
+
+@pytest.mark.parametrize('seed', range(3))
+def test_contacts_that_carry_nothing_can_be_left_out(seed):
+    grasp, _, _ = random_problem(seed)
+    kept = [len(grasp) - 1, 0]
+    forces = np.zeros((len(grasp), 4))
+    forces[kept] = np.random.default_rng(seed).normal(size=(2, 4))
+    assert grasp.joint_limits.subset(kept).torques(forces[kept]) == pytest.approx(
+        grasp.joint_limits.torques(forces), rel=CLOSED_FORM)

@@ -104,6 +104,7 @@ def test_many_tasks_are_not_taken_for_one_grasp():
         evaluate_many([antipodal()], [FX, FY])
 
 
-def test_time_limit():
+@pytest.mark.parametrize('bound', ['linf', 'l2'])  # all at once, and one after the other
+def test_time_limit(bound):
     with pytest.raises(SolverTimeoutError, match='time limit'):
-        evaluate_many([antipodal()], FX, time_limit_s=0.0)
+        evaluate_many([antipodal(bound=bound)], FX, time_limit_s=0.0)

@@ -171,6 +171,7 @@ def test_an_ellipsoid_is_refused_with_the_way_out():
         robust_alpha(antipodal(), TaskEllipsoid([FX, FY]))
 
 
-def test_the_time_limit_holds():
+@pytest.mark.parametrize('task', [TaskWrench(FY), TaskCone(FY, FX, FZ, 0.2)])
+def test_the_time_limit_holds(task):
     with pytest.raises(SolverTimeoutError, match='time limit of 1e-09 s'):
-        robust_alpha(antipodal(), TaskWrench(FY), time_limit_s=1e-9)
+        robust_alpha(antipodal(), task, time_limit_s=1e-9)
