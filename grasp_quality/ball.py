@@ -13,10 +13,12 @@ part of W in their span counts.
 from dataclasses import dataclass
 from functools import cached_property
 
+from grasp_quality.arguments import require_grasp
 from grasp_quality.arrays import checked_number, frozen
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp
 from grasp_quality.inscribed import Inscribed
+from grasp_quality.joint_limits import refuse_limits
 from grasp_quality.solution import Solution
 from grasp_quality.task import TaskEllipsoid
 from grasp_quality.time_limit import TimeLimit
@@ -117,6 +119,7 @@ def ball_radius(grasp: Grasp, torque_length: float = 1.0, subspace: str = 'all',
     InvalidTaskError
 
     """
+    require_grasp(grasp)
     length = checked_number(torque_length, 'torque_length [m]', InvalidTaskError, above=0.0)
     if subspace not in SUBSPACES:
         raise InvalidTaskError(f'subspace must be one of {list(SUBSPACES)}, got {subspace!r}')
@@ -147,12 +150,13 @@ def ellipsoid_scale(grasp: Grasp, ellipsoid: TaskEllipsoid, relative_width: floa
     InvalidTaskError
 
     """
+    require_grasp(grasp)
     width = checked_number(
         relative_width, 'relative_width', InvalidTaskError, above=0.0, below=1.0)
     if not isinstance(ellipsoid, TaskEllipsoid):
         raise InvalidTaskError(
             f'ellipsoid must be a TaskEllipsoid, got {type(ellipsoid).__name__}')
-    refuse_joint_limits(grasp, 'the largest ball')
+    refuse_limits(grasp.joint_limits, 'the largest ball')
     found = Inscribed(grasp, ellipsoid.axes, width, TimeLimit.of(time_limit_s))
     return BallRadius(
         grasp, found.lower, found.upper, frozen(_physical(grasp, found.multiplier)),
@@ -165,11 +169,3 @@ def _physical(grasp: Grasp, multiplier: Array) -> Array:
     worth[3:] /= grasp.lever_arm
     worth[:3] -= skew(worth[3:]) @ grasp.center
     return worth
-
-
-def refuse_joint_limits(grasp: Grasp, measure: str) -> None:
-    """Raise an InvalidTaskError when the grasp has joint limits, which the measure cannot keep."""
-    if grasp.joint_limits is not None:
-        raise InvalidTaskError(
-            f'{measure} is known for caps and friction cones only, but the grasp has '
-            'joint_limits: make it without them, or ask evaluate for single wrenches')

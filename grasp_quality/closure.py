@@ -11,6 +11,7 @@ forces inside the cones, as the virtual contact; the joints' limits shrink by th
 
 from dataclasses import dataclass
 
+from grasp_quality.arguments import require_grasp
 from grasp_quality.grasp import Grasp
 from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.solve import prove_optimal
@@ -62,6 +63,7 @@ def force_closure(grasp: Grasp, time_limit_s: Limit = None) -> ForceClosure:
     SolverError, SolverTimeoutError
 
     """
+    require_grasp(grasp)
     normals = grasp.scaled_matrix[:, :, 2].sum(axis=1, keepdims=True)  # (6, 1)
     pressing = VirtualContact(-normals, False, np.array([1.0]), role='pressing')
     optimum = prove_optimal(assemble(grasp, pressing), time_limit_s)

@@ -45,12 +45,14 @@ class Contact:
         Inward normal (into the object) in the object frame, of any length but zero. The tangents
         t1, t2 are then chosen by a fixed rule; give ``rotation`` instead to choose them yourself.
     model : ContactModel
+        PCWF unless given.
     friction : float [-]
-        Coulomb coefficient mu >= 0; not used by FPC.
+        Coulomb coefficient mu >= 0, 0.5 unless given; not used by FPC.
     torsional_friction : float [m]
-        gamma >= 0, the largest moment about the normal per newton of normal force; SFCE only.
+        gamma >= 0, the largest moment about the normal per newton of normal force, 0 unless given;
+        used by SFCE only, whatever it is elsewhere.
     max_normal_force : float [N]
-        f_max > 0.
+        f_max > 0; 1 N unless given.
     name, finger : str
         What the contact is called and which finger it belongs to (for the finger bound).
     rotation : (3, 3) array_like, optional

@@ -10,6 +10,7 @@ what the best single change really gives is found by solving once more with it m
 from dataclasses import dataclass
 
 from grasp_quality import sensitivity
+from grasp_quality.arguments import require_grasp
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.explanation_text import paragraph
 from grasp_quality.grasp import Grasp
@@ -127,6 +128,7 @@ def explain(grasp: Grasp, task: TaskWrench | TaskCone, external_wrench: ArrayLik
     InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    require_grasp(grasp)
     if not isinstance(task, (TaskWrench, TaskCone)):
         raise InvalidTaskError(
             f'explain takes a TaskWrench or a TaskCone, got {type(task).__name__}: explain the '

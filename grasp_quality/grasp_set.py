@@ -20,6 +20,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from grasp_quality import bounds
+from grasp_quality.arguments import plain_grasps
 from grasp_quality.arrays import checked, frozen
 from grasp_quality.contact import ContactModel, FARTHEST, IDENTITY, ROTATION_TOLERANCE
 from grasp_quality.contact_set import ContactSet
@@ -118,12 +119,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
     @classmethod
     def of(cls, grasps: Iterable[Grasp]) -> GraspSet:
         """Stack Grasp objects."""
-        grasps = list(grasps)
-        if strangers := [g for g in grasps if not isinstance(g, Grasp) or g.joint_limits]:
-            raise InvalidGraspError(
-                f'grasps must be Grasp objects without joint_limits, got {strangers[0]!r}')
-        if not grasps:
-            raise InvalidGraspError('evaluating many grasps needs at least one, got none')
+        grasps = plain_grasps(grasps)
         scales = np.concatenate([g.scales for g in grasps])
         return cls(
             np.cumsum([0] + [len(g) for g in grasps]),

@@ -12,6 +12,7 @@ carries the smallest violation.
 import dataclasses
 
 from grasp_quality import friction_cone
+from grasp_quality.arguments import require_grasp
 from grasp_quality.arrays import Array, frozen
 from grasp_quality.grasp import Grasp
 from grasp_quality.problem import assemble, VirtualContact
@@ -92,6 +93,7 @@ def minimum_forces(grasp: Grasp, external_wrench: ArrayLike,
     InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    require_grasp(grasp)
     time_limit_s = TimeLimit.of(time_limit_s)
     load = as_wrench(external_wrench, 'external wrench')
     scaled = grasp.scaled_wrench(load)

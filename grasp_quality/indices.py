@@ -10,6 +10,7 @@ answer what a grasp can do.
 
 from dataclasses import dataclass
 
+from grasp_quality.arguments import require_grasp
 from grasp_quality.arrays import checked_number, frozen
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp, RANK_TOLERANCE
@@ -73,6 +74,7 @@ def grasp_indices(grasp: Grasp, torque_length: float = 1.0) -> GraspIndices:
     InvalidTaskError
 
     """
+    require_grasp(grasp)
     length = checked_number(torque_length, 'torque_length [m]', InvalidTaskError, above=0.0)
     G = np.array(grasp.matrix)
     G[:, :, 3] *= length

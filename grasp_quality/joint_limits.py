@@ -124,8 +124,8 @@ def refuse_limits(limits: JointLimits | None, who: str) -> None:
     """Refuse joint limits where they would be passed over in silence."""
     if limits is not None:
         raise InvalidGraspError(
-            f'{who} does not know joint limits: ask evaluate() about each grasp, or leave '
-            'joint_limits out')
+            f'{who} knows caps and friction cones only, but the grasp has joint_limits: ask '
+            'evaluate() for single wrenches, or leave them out')
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,6 @@ import numpy as np
 
 CONE_ORDER = (2, 0, 1, 3)  # axis first: n, t1, t2, m_n
 Cones = tuple[tuple[str, int], ...]
-ROLES = ('task', 'pressing', 'widening')
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ smoothly with contacts and load.
 
 from dataclasses import dataclass
 
+from grasp_quality.arguments import require_grasp
 from grasp_quality.arrays import checked_number, frozen
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.force_center import force_center, ForceCenter
@@ -107,6 +108,7 @@ def hold_forces(grasp: Grasp, external_wrench: ArrayLike | None = None,
     InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    require_grasp(grasp)
     load = np.zeros(6) if external_wrench is None else as_wrench(
         external_wrench, 'external wrench')
     multiple = checked_number(alpha, 'alpha', InvalidTaskError)

@@ -11,6 +11,7 @@ friction is (1 - m) times as large: the nearest admissible forces of another gra
 
 from dataclasses import dataclass
 
+from grasp_quality.arguments import require_grasp
 from grasp_quality.arrays import checked, checked_number, frozen
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidTaskError
@@ -28,7 +29,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
-NO_WRENCH = 1e-9  # share of the caps below which measured forces apply nothing
+NEGLIGIBLE_SHARE = 1e-9  # share of the caps below which measured forces apply nothing
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +48,8 @@ class MeasuredMargin:
     load_alpha : float
         Largest multiple of it that the grasp could apply; 0 when there is none.
     load_share : float
-        1 / load_alpha: 1 is at the limit, more means outside cones or caps; 0 without a wrench.
+        1 / load_alpha: 1 is at the limit, more means outside cones or caps; 0 without a wrench,
+        and when INFEASIBLE.
     wanted_margin : float
     change : (k, 4) array [N, N, N, N m] or None
         Smallest change of the forces, in the contact frames, that restores the wanted margin with
@@ -98,6 +100,7 @@ def measured_margin(grasp: Grasp, forces: ArrayLike, wanted_margin: float = 0.2,
     InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    require_grasp(grasp)
     limit = TimeLimit.of(time_limit_s)
     wanted = checked_number(
         wanted_margin, 'wanted_margin', InvalidTaskError, minimum=0.0, below=1.0)
@@ -119,7 +122,7 @@ def measured_margin(grasp: Grasp, forces: ArrayLike, wanted_margin: float = 0.2,
 def _share(grasp: Grasp, applied: Array, limit: TimeLimit | None) -> tuple[Status, float, float]:
     """Status, alpha of the applied wrench, and the share of it that is in use."""
     scaled = grasp.scaled_wrench(applied)
-    if np.sqrt(scaled @ scaled) <= NO_WRENCH:
+    if np.sqrt(scaled @ scaled) <= NEGLIGIBLE_SHARE:
         return Status.OPTIMAL, 0.0, 0.0
     problem = build_problem(grasp, TaskWrench(applied))
     optimum = prove_optimal(problem, limit)

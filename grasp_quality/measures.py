@@ -13,6 +13,7 @@ import dataclasses
 from typing import cast, overload
 
 from grasp_quality import friction_cone
+from grasp_quality.arguments import require_grasp
 from grasp_quality.arrays import Array, checked, checked_number, frozen
 from grasp_quality.barrier import with_margin
 from grasp_quality.batch import solve_wrenches
@@ -88,6 +89,7 @@ def evaluate(grasp: Grasp, task: Task, external_wrench: ArrayLike | None = None,
     InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    require_grasp(grasp)
     time_limit_s = TimeLimit.of(time_limit_s)
     eps = checked_number(barrier_weight, 'barrier_weight', InvalidTaskError, minimum=0.0)
     reserve = checked_number(
@@ -156,6 +158,7 @@ def wrench_map(grasp: Grasp, directions: ArrayLike, external_wrench: ArrayLike |
     InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    require_grasp(grasp)
     directions = checked(directions, (None, 6), 'directions', InvalidTaskError)
     check_rows(directions, 'directions')
     batch = solve_wrenches(grasp, directions, external_wrench, time_limit_s, forces)
@@ -185,6 +188,7 @@ def slip_margin(grasp: Grasp, forces: ArrayLike) -> Array:
     InvalidTaskError
 
     """
+    require_grasp(grasp)
     measured = checked(forces, (len(grasp), 4), 'measured forces', InvalidTaskError)
     measured = np.where([1, 1, 1, 0], measured, measured * (grasp.scales > 0.0))
     return 1.0 - friction_cone.usage(measured, grasp.scales, grasp.max_normal_forces)

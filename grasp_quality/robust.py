@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from grasp_quality.arguments import require_grasp
 from grasp_quality.arrays import checked_number, frozen
 from grasp_quality.exceptions import InvalidTaskError, SolverError, SolverTimeoutError
 from grasp_quality.grasp import Grasp
@@ -117,6 +118,7 @@ def robust_alpha(
     InvalidTaskError, SolverTimeoutError
 
     """
+    require_grasp(grasp)
     limit = TimeLimit.of(time_limit_s)
     load = NO_WRENCH if external_wrench is None else as_wrench(external_wrench, 'external wrench')
     noise = Uncertainty(contact_noise, normal_noise, friction_noise, load_noise, len(grasp))

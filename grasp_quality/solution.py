@@ -83,8 +83,8 @@ class Solution:
     cone_usage: Array
     proof: Proof | None
     multiplier: Array
-    bound_multiplier: Array
-    reference_forces: Array
+    bound_multiplier: Array  # (k,) worth of each contact's share of the bound
+    reference_forces: Array  # (k, 4) of the largest alpha, whose sensitivities are told
     joint_multiplier: Array
     barrier_weight: float = 0.0
     center: ForceCenter | None = None
@@ -175,14 +175,14 @@ class ConeSolution(Solution):
 
     Attributes
     ----------
-    alpha_axis : float
-        Largest factor along the bare axis.
+    alpha_axis : float or None
+        Largest factor along the bare axis; None where only the cone itself was solved.
     alpha_worst : float or None
         Least factor over the sampled directions of the cone's surface; None without samples.
 
     """
 
-    alpha_axis: float = 0.0
+    alpha_axis: float | None = None
     alpha_worst: float | None = None
 
 

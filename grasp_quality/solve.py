@@ -20,7 +20,7 @@ from grasp_quality.bounds import gauge
 from grasp_quality.exceptions import SolverError
 from grasp_quality.grasp import Grasp
 from grasp_quality.infeasibility import infeasibility_margin, INFEASIBILITY_TOLERANCE
-from grasp_quality.problem import ConicProblem
+from grasp_quality.problem import ConicProblem, NO_WRENCH
 from grasp_quality.proof import GAP_TOLERANCE, held, NO_JOINTS, Proof, prove
 from grasp_quality.raw_answer import RawAnswer
 from grasp_quality.sensitivity import dimensional_multiplier
@@ -28,7 +28,6 @@ from grasp_quality.solution import ConeSolution, NO_FORCES, NO_USAGE, Solution, 
 from grasp_quality.time_limit import Limit, TimeLimit
 import numpy as np
 
-NO_WRENCH = frozen(np.zeros(6))
 Answer = TypeVar('Answer', bound=Solution)
 
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from grasp_quality.exceptions import SolverTimeoutError
+from grasp_quality.arrays import checked_number
+from grasp_quality.exceptions import InvalidTaskError, SolverTimeoutError
 
 if TYPE_CHECKING:
     from grasp_quality.problem import ConicProblem
@@ -30,8 +31,18 @@ class TimeLimit:
 
     @classmethod
     def of(cls, limit: Limit) -> TimeLimit | None:
-        """Return a TimeLimit of a number of seconds; None and a running TimeLimit stay."""
-        return limit if limit is None or isinstance(limit, TimeLimit) else cls(float(limit))
+        """
+        Return a TimeLimit of a number of seconds; None and a running TimeLimit stay.
+
+        Raises
+        ------
+        InvalidTaskError
+            When it is no finite number.
+
+        """
+        if limit is None or isinstance(limit, TimeLimit):
+            return limit
+        return cls(checked_number(limit, 'time_limit_s', InvalidTaskError))
 
     @property
     def is_over(self) -> bool:

@@ -14,10 +14,11 @@ from dataclasses import dataclass
 import itertools
 
 from grasp_quality import bounds, friction_cone
+from grasp_quality.arguments import require_grasp
 from grasp_quality.arrays import checked_number
-from grasp_quality.ball import refuse_joint_limits
 from grasp_quality.exceptions import InvalidTaskError, SolverTimeoutError
 from grasp_quality.grasp import Grasp
+from grasp_quality.joint_limits import refuse_limits
 from grasp_quality.problem import build_problem
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskWrench
@@ -83,11 +84,12 @@ def volume(grasp: Grasp, subspace: str = 'force', relative_width: float = WIDTH,
     InvalidTaskError, SolverError
 
     """
+    require_grasp(grasp)
     width = checked_number(
         relative_width, 'relative_width', InvalidTaskError, above=0.0, below=1.0)
     if subspace not in SUBSPACES:
         raise InvalidTaskError(f'subspace must be one of {list(SUBSPACES)}, got {subspace!r}')
-    refuse_joint_limits(grasp, 'the volume')
+    refuse_limits(grasp.joint_limits, 'the volume')
     rows = SUBSPACES[subspace]
     if not all(grasp.spans(axis) for axis in np.eye(6)[rows]):
         return WrenchVolume(0.0, 0.0, True, 0)

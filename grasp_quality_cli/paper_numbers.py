@@ -9,7 +9,7 @@ Each expected value is a closed form, or a value that the figures' subject fixes
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, cast
 
 from grasp_quality import evaluate, Grasp, TaskCone, TaskWrench
 from grasp_quality_cli.paper_grasps import eight_contacts, pinch, three_fingers
@@ -92,7 +92,7 @@ def _fig_5() -> list[Number]:
     for degrees, single in zip(TILTS, SINGLE):
         cone = evaluate(grasp, cone_about(tilted(degrees), HALF_ANGLE))
         found.append(Number('5', f'tilt {degrees} deg: single direction [N]', single,
-                            cone.alpha_axis))
+                            cast(float, cone.alpha_axis)))
         found.append(Number('5', f'tilt {degrees} deg: along -x, with the cone [N]', best,
                             -float(cone.wrench[0])))
     return found
@@ -103,7 +103,7 @@ def _fig_6() -> list[Number]:
     for degrees in FLAT_TILTS:
         cone = evaluate(grasp, cone_about(tilted(degrees), FLAT_HALF_ANGLE))
         found.append(Number('6', f'tilt {degrees} deg: single direction [N]', flat_alpha(degrees),
-                            cone.alpha_axis))
+                            cast(float, cone.alpha_axis)))
         found.append(Number('6', f'tilt {degrees} deg: along -x, with the cone [N]', 1.0,
                             -float(cone.wrench[0])))
     return found

@@ -71,7 +71,7 @@ def _direction_and_cone(path: Path, grasp: Grasp, half_angle: float,
                   label='task cone' if side > 0 else None)
     left.plot(*np.stack([np.zeros(2), 2 * reach * axis[:2]]).T, color='0.45', linestyle='dashed',
               label=f'its axis, tilted by {shown:g} degrees')
-    _point(left, best.alpha_axis * axis[:2], DARK, 's', 'single direction')
+    _point(left, np.asarray(best.alpha_axis, np.float64) * axis[:2], DARK, 's', 'single direction')
     _point(left, best.wrench[:2], DARK, 'o', 'best in the cone')
     left.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect='equal',
              xlabel='force along x [N]', ylabel='force along y [N]')
@@ -80,8 +80,9 @@ def _direction_and_cone(path: Path, grasp: Grasp, half_angle: float,
     cones = [evaluate(grasp, cone_about(tilted(t), half_angle)) for t in tilts]
     right.plot(tilts, [np.linalg.norm(c.wrench[:3]) for c in cones], color=MIDDLE, marker='o',
                markevery=10, label='force reached, best in the cone')
-    right.plot(tilts, [c.alpha_axis for c in cones], color=DARK, marker='s', markevery=10,
-               linestyle='dashed', label='force reached, single direction')
+    right.plot(tilts, np.asarray([c.alpha_axis for c in cones], np.float64), color=DARK,
+               marker='s', markevery=10, linestyle='dashed',
+               label='force reached, single direction')
     right.set(xlabel='tilt of the axis from -x [degrees]', ylabel='force reached [N]',
               ylim=(0.0, None))
     right.legend(loc='lower left', frameon=False)

@@ -6,8 +6,8 @@ import dataclasses
 
 from benchmarks.random_grasps import BOUNDS, degenerate_grasp, random_grasp
 from grasp_quality import (
-    ball_radius, Contact, ellipsoid_scale, evaluate, Grasp, InvalidTaskError, JointLimits,
-    SolverError, TaskEllipsoid, TaskWrench, wrench_map)
+    ball_radius, Contact, ellipsoid_scale, evaluate, Grasp, InvalidGraspError, InvalidTaskError,
+    JointLimits, SolverError, TaskEllipsoid, TaskWrench, wrench_map)
 from grasp_quality.ball import WIDTH
 from known_grasps import antipodal, cube_of_eight, FX, single, three_finger
 import numpy as np
@@ -240,5 +240,5 @@ def test_only_an_ellipsoid_scales():
 def test_joint_limits_are_refused():
     grasp = three_finger()
     limits = JointLimits(('knuckle',), [1.0], np.zeros((1, 3, 4)))
-    with pytest.raises(InvalidTaskError, match='joint_limits'):
+    with pytest.raises(InvalidGraspError, match='joint_limits'):
         ball_radius(Grasp(grasp.contacts, joint_limits=limits))

@@ -59,7 +59,7 @@ def test_variations_keep_what_is_left_out():
 
 @pytest.mark.parametrize('make, error, words', [
     (lambda: GraspSet.of([]), InvalidGraspError, 'at least one'),
-    (lambda: GraspSet.of([antipodal(), 'grasp']), InvalidGraspError, 'Grasp objects'),
+    (lambda: GraspSet.of([antipodal(), 'grasp']), InvalidGraspError, 'must be a Grasp'),
     (lambda: GraspSet.of_arrays(np.zeros((2, 3))), InvalidContactError, 'positions must have'),
     (lambda: GraspSet.of_arrays(np.zeros((1, 2, 3))), InvalidContactError, 'exactly one'),
     (lambda: GraspSet.of_arrays(np.zeros((1, 2, 3)), np.zeros((1, 2, 3))), InvalidContactError,
