@@ -62,18 +62,16 @@ class BagTypes:
 def _store_for(record: Record) -> Typestore:
     """Make a store of its own for each type: two files may define their parts differently."""
     kind, text = record.definition
-    store = get_typestore(Stores.ROS2_JAZZY)
+    given = kind is not MessageDefinitionFormat.NONE
+    store = get_typestore(Stores.EMPTY if given else Stores.ROS2_JAZZY)
     try:
         if kind is MessageDefinitionFormat.MSG:
-            own = get_typestore(Stores.EMPTY)
-            own.register(get_types_from_msg(text, record.msgtype))
-            return own
-        if kind is MessageDefinitionFormat.IDL:
-            own = get_typestore(Stores.EMPTY)
-            own.register(_idl_types(text))
-            return own
-        for name, definition in OURS.items():
-            store.register(get_types_from_msg(definition, name))
+            store.register(get_types_from_msg(text, record.msgtype))
+        elif kind is MessageDefinitionFormat.IDL:
+            store.register(_idl_types(text))
+        else:
+            for name, definition in OURS.items():
+                store.register(get_types_from_msg(definition, name))
     except Exception as exc:  # rosbags lets through many kinds
         raise UnknownTypeError(
             f'the definition of {record.msgtype} in the bag cannot be used: {exc}') from exc
