@@ -8,9 +8,10 @@ TEST_FLAGS ?=
 BENCH_FLAGS ?=
 TRUTH_FLAGS ?=
 MUTANTS_FLAGS ?=
+FUZZ_FLAGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint coverage bench truth mutants clean
+.PHONY: help setup demo test lint coverage bench truth mutants fuzz clean
 
 help:
 	@echo 'make setup   make .venv (ROS included, where there is none) and build the packages'
@@ -22,6 +23,7 @@ help:
 	@echo 'make bench   the figures of docs/performance.md (BENCH_FLAGS goes to it)'
 	@echo 'make truth   prediction against physics, docs/truth.md (TRUTH_FLAGS goes to it)'
 	@echo 'make mutants whether the tests notice changes of the code (MUTANTS_FLAGS goes to it)'
+	@echo 'make fuzz    a million spoilt messages, judged, docs/reliability.md (FUZZ_FLAGS goes to it)'
 	@echo 'make clean   remove .venv, build/, install/ and log/'
 	@echo 'PYTHON=/path/to/python3.12 chooses the interpreter'
 
@@ -48,6 +50,9 @@ truth: setup
 
 mutants: setup
 	@. ./env.sh && exec python scripts/mutants.py $(MUTANTS_FLAGS)
+
+fuzz: setup
+	@. ./env.sh && exec python -m benchmarks.fuzz $(FUZZ_FLAGS)
 
 clean:
 	rm -rf .venv build install log .pytest_cache .hypothesis

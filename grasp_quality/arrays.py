@@ -15,9 +15,14 @@ Bools = NDArray[np.bool_]
 Ints = NDArray[np.int64]
 Codes = NDArray[np.int8]
 
+# of any force, torque, coefficient: products of three of them are still numbers
+SMALLEST, LARGEST = 1e-50, 1e50
+NO_LENGTH = 1e-12  # [m], below an atom: torques over it would be numbers without end
+ANY = float(np.finfo(float).max)
+
 
 def checked(value: ArrayLike, shape: tuple[int | None, ...], name: str,
-            error: type[ValueError]) -> Array:
+            error: type[ValueError], largest: float = LARGEST) -> Array:
     """
     Copy a value into a finite, read-only float64 array of the given shape.
 
@@ -31,11 +36,13 @@ def checked(value: ArrayLike, shape: tuple[int | None, ...], name: str,
         What the value is called in the error message.
     error : type
         Exception class, a ValueError.
+    largest : float
+        Of any number, in size.
 
     Raises
     ------
     error
-        When the value is not numeric, has another shape, or is not finite.
+        When the value is not numeric, has another shape, or is not finite or too large.
 
     """
     try:
@@ -46,8 +53,9 @@ def checked(value: ArrayLike, shape: tuple[int | None, ...], name: str,
         want is None or want == have for want, have in zip(shape, array.shape))
     if not fits:
         raise error(f'{name} must have shape {_words(shape)}, got {array.shape}: {value!r}')
-    if not np.isfinite(array).all():
-        raise error(f'{name} must be finite, got {array.tolist()}')
+    if not (np.abs(array) <= largest).all():  # nan is not either
+        raise error(
+            f'{name} must be finite and at most {largest:g} in size, got {array.tolist()}')
     array.flags.writeable = False
     return array
 
@@ -56,7 +64,7 @@ def checked_number(value: SupportsFloat, name: str, error: type[ValueError],
                    minimum: float | None = None, above: float | None = None,
                    below: float | None = None) -> float:
     """
-    Return a finite float inside the stated range; raise ``error`` when it is not.
+    Return a float of computable size inside the stated range; raise ``error`` when it is not.
 
     ``minimum`` is inclusive, ``above`` and ``below`` are exclusive.
 
@@ -65,12 +73,12 @@ def checked_number(value: SupportsFloat, name: str, error: type[ValueError],
         number = float(value)
     except (TypeError, ValueError) as exc:
         raise error(f'{name} must be a number, got {value!r}') from exc
-    if not np.isfinite(number):
-        raise error(f'{name} must be finite, got {number}')
-    if minimum is not None and number < minimum:
-        raise error(f'{name} must be at least {minimum:g}, got {number:g}')
+    if not abs(number) <= LARGEST:  # nan is not either
+        raise error(f'{name} must be finite and at most {LARGEST:g} in size, got {number}')
     if above is not None and number <= above:
         raise error(f'{name} must be greater than {above:g}, got {number:g}')
+    if minimum is not None and number < minimum:
+        raise error(f'{name} must be at least {minimum:g}, got {number:g}')
     if below is not None and number >= below:
         raise error(f'{name} must be less than {below:g}, got {number:g}')
     return number

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import enum
 from typing import TYPE_CHECKING
 
-from grasp_quality.arrays import Array, checked, checked_number, frozen
+from grasp_quality.arrays import ANY, Array, checked, checked_number, frozen, SMALLEST
 from grasp_quality.exceptions import InvalidContactError
 import numpy as np
 from numpy.typing import ArrayLike
@@ -103,7 +103,7 @@ class Contact:
             put(field, checked_number(
                 getattr(self, field), label + field, InvalidContactError, minimum=0.0))
         put('max_normal_force', checked_number(
-            self.max_normal_force, label + 'max_normal_force', InvalidContactError, above=0.0))
+            self.max_normal_force, label + 'max_normal_force', InvalidContactError, SMALLEST, 0.0))
 
     def _frame(self, label: str) -> Array:
         if (self.normal is None) == (self.rotation is None):
@@ -111,7 +111,8 @@ class Contact:
                 f'{label}give exactly one of normal and rotation, got '
                 + ('neither' if self.normal is None else 'both'))
         if self.rotation is None:
-            normal = checked(self.normal, (3,), label + 'normal', InvalidContactError)
+            normal = checked(
+                self.normal, (3,), label + 'normal', InvalidContactError, ANY)
             return frozen(frame_from_normal(normal, label))
         rotation = checked(self.rotation, (3, 3), label + 'rotation', InvalidContactError)
         skew = np.abs(rotation.T @ rotation - IDENTITY).max()

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NoReturn, overload, TYPE_CHECKING
 
-from grasp_quality.arrays import Array, Bools, checked, frozen
+from grasp_quality.arrays import Array, Bools, checked, frozen, SMALLEST
 from grasp_quality.contact import (
     Contact, ContactModel, FARTHEST, IDENTITY, ROTATION_TOLERANCE)
 from grasp_quality.exceptions import InvalidContactError, InvalidGraspError
@@ -85,8 +85,9 @@ class ContactSet(Sequence[Contact]):
             self._refuse(self.friction < 0.0, 'friction must be at least 0')
         if self.torsional_friction.min() < 0.0:
             self._refuse(self.torsional_friction < 0.0, 'torsional_friction must be at least 0')
-        if self.max_normal_forces.min() <= 0.0:
-            self._refuse(self.max_normal_forces <= 0.0, 'max_normal_force must be greater than 0')
+        if self.max_normal_forces.min() < SMALLEST:
+            self._refuse(self.max_normal_forces < SMALLEST,
+                         f'max_normal_force must be greater than 0, at least {SMALLEST:g}')
         if not all(isinstance(model, ContactModel) for model in self.models):
             self._refuse([not isinstance(model, ContactModel) for model in self.models],
                          f'model must be one of {[str(m) for m in ContactModel]}')

@@ -77,7 +77,8 @@ def usage_of_shares(shares: Array, unloaded: float = UNLOADED) -> Array:
 
 
 def _share(norm: Array, normal: Array, small: Array | float) -> Array:
-    share: Array = np.divide(norm, normal, where=normal > 0.0, out=np.full(norm.shape, np.inf))
+    with np.errstate(over='ignore'):  # beside a denormal normal force
+        share: Array = np.divide(norm, normal, where=normal > 0.0, out=np.full(norm.shape, np.inf))
     share[np.maximum(np.abs(normal), norm) <= small] = 0.0
     return share
 

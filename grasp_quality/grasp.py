@@ -16,7 +16,7 @@ import math
 from typing import TYPE_CHECKING
 
 from grasp_quality import bounds
-from grasp_quality.arrays import Array, frozen, Ints
+from grasp_quality.arrays import Array, frozen, Ints, NO_LENGTH
 from grasp_quality.contact import Contact
 from grasp_quality.contact_set import as_contact_set, ContactSet
 from grasp_quality.exceptions import InvalidGraspError
@@ -134,15 +134,15 @@ class Grasp:
 
         Where all contacts coincide, as far as float64 coordinates can tell them apart to eight
         digits, the largest torsional coefficient; their distance from the origin, or else 1 m,
-        when that is zero too.
+        when that is zero too. Below ``NO_LENGTH`` everything is zero.
 
         """
         offsets = self.positions - self.center
         reach = math.sqrt((offsets * offsets).sum(axis=1).max())
         away = max(map(abs, self.center.tolist()))
-        if reach > COINCIDENT * away:
+        if reach > max(COINCIDENT * away, NO_LENGTH):
             return reach
-        return float(self.scales[:, 3].max()) or away or 1.0
+        return next(a for a in (float(self.scales[:, 3].max()), away, 1.0) if a > NO_LENGTH)
 
     @cached_property
     def scaled_matrix(self) -> Array:

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 from grasp_quality import bounds
 from grasp_quality.arguments import plain_grasps
-from grasp_quality.arrays import checked, frozen
+from grasp_quality.arrays import ANY, checked, frozen, SMALLEST
 from grasp_quality.contact import ContactModel, FARTHEST, IDENTITY, ROTATION_TOLERANCE
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidContactError, InvalidGraspError
@@ -99,7 +99,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
                  f'position must lie within {FARTHEST:g} m of the origin'),
                 ((self.friction < 0.0) | (self.torsional_friction < 0.0),
                  'friction and torsional_friction must be at least 0'),
-                (self.max_normal_forces <= 0.0, 'max_normal_force must be greater than 0')):
+                (self.max_normal_forces < SMALLEST, 'max_normal_force must be greater than 0')):
             if broken.any():
                 row = int(np.flatnonzero(broken)[0])
                 grasp = int(np.searchsorted(self.starts, row, side='right')) - 1
@@ -163,7 +163,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
         if (normals is None) == (rotations is None):
             raise InvalidContactError('give exactly one of normals and rotations')
         if normals is not None:
-            given: Array = checked(normals, (M, k, 3), 'normals', InvalidContactError)
+            given: Array = checked(normals, (M, k, 3), 'normals', InvalidContactError, ANY)
             frames = frames_of_normals(given.reshape(-1, 3))
         elif rotations is not None:
             frames = checked(rotations, (M, k, 3, 3), 'rotations', InvalidContactError)

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from grasp_quality.arrays import checked, frozen
+from grasp_quality.arrays import checked, frozen, SMALLEST
 from grasp_quality.exceptions import InvalidGraspError
 import numpy as np
 from numpy.typing import NDArray
@@ -61,7 +61,7 @@ class JointLimits:
         if len(set(names)) < count:
             raise InvalidGraspError(f'joint names must be unique, got {list(names)}')
         limits = checked(self.max_torques, (count,), 'max_torques', InvalidGraspError)
-        if limits.min() <= 0.0:
+        if limits.min() < SMALLEST:
             raise InvalidGraspError(
                 f'max_torques must be greater than 0, got {limits.tolist()}: leave out a joint '
                 'whose torque is not limited')

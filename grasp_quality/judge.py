@@ -16,6 +16,7 @@ import numba
 import numpy as np
 
 UNPROVED, OPTIMAL, INFEASIBLE = 0, 1, 2
+HEAVY = 100.0  # times the caps: beyond it a load is no measure of what may be left unbalanced
 
 # no fastmath that would let the compiler assume away nan
 COMPILE = {'cache': True, 'error_model': 'numpy', 'nogil': True,
@@ -128,7 +129,7 @@ def judge(block: Array, groups: Ints, task: Array, load: Array, reach: float, le
             if groups[i] == g:
                 pressed += share[i, 0]
         used = max(used, pressed)
-    return (alpha, upper, scale, left / max(reach, size),
+    return (alpha, upper, scale, left / max(reach, min(size, HEAVY * reach)),
             left / max(max(size, applied), small_cap * least_cap), largest, used)
 
 

@@ -17,6 +17,7 @@ from grasp_quality.sample_statistics import fewest_samples
 from grasp_quality.task import TaskWrench
 from grasp_quality.uncertainty import Uncertainty
 from msg_adapters.contacts import ContactDefaults
+from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.topic_names import names_a_topic, TOPIC_RULE
 
 SOURCES = ('pose_array', 'contact_array')
@@ -87,8 +88,7 @@ class Settings:
             raise ValueError(
                 f'contact_fingers must name one finger for each of the {len(self.contact_names)} '
                 f'contact_names, got {list(self.contact_fingers)}')
-        if self.task_wrench:
-            TaskWrench(self.task_wrench)
+        self._check_numbers()
         if self.alpha_reserve >= 1.0:
             raise ValueError(f'alpha_reserve must be less than 1, got {self.alpha_reserve}')
         if self.alpha_reserve > 0.0 and self.barrier_weight > 0.0:
@@ -96,6 +96,19 @@ class Settings:
                 f'barrier_weight {self.barrier_weight:g} and alpha_reserve '
                 f'{self.alpha_reserve:g} are two ways to buy margin with alpha: set one to 0')
         self._check_uncertainty()
+
+    def _check_numbers(self) -> None:
+        """Hold parameters to what messages are held to."""
+        for name in ('friction_coefficient', 'torsional_friction_coefficient', 'max_normal_force'):
+            value = getattr(self, name)
+            if value != 0.0 and value < SMALLEST:
+                raise ValueError(f'{name} must be 0 or at least {SMALLEST:g}, got {value:g}')
+        for name in ('task_wrench', 'load_noise'):
+            checked_numbers(getattr(self, name), name)
+        if self.task_wrench:
+            TaskWrench(self.task_wrench)
+            if max(map(abs, self.task_wrench)) < SMALLEST:
+                raise ValueError(f'task_wrench must not be zero (below {SMALLEST:g})')
 
     def _check_uncertainty(self) -> None:
         if not 0.0 < self.quantile_level < 1.0:

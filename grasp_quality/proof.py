@@ -41,7 +41,7 @@ class Proof:
     objective, upper : float
         Value that the forces reach, and a bound that no forces can exceed.
     residual : float
-        |G x + F_ext - alpha F| as a share of the caps' total.
+        |G x + F_ext - alpha F| as a share of the caps' total or of the load (``judge.HEAVY``).
     cone_usage : (k,) array
         Share of each friction cone in use, down to rounding.
     imbalance : float
@@ -166,12 +166,12 @@ def prove(problem: ConicProblem, shares: Array, values: Array, multipliers: Arra
     balance = grasp.scaled_matrix.reshape(6, -1) @ shares.ravel() + load - applied
     press = values[0] if virtual.role == 'pressing' else 0.0
     used = bounds.gauge(shares[:, 2] + press, grasp.bound, grasp.groups)
-    size_of_forces = max(problem.reach * allowed, math.sqrt(load @ load))
+    heaviest = judge.HEAVY * problem.reach if virtual.objective[0] > 0.0 else np.inf
     left = math.sqrt(balance @ balance)
     balanced = math.sqrt(max(float(load @ load), float(np.vdot(applied, applied))))
     return Proof(
         objective=float(virtual.objective @ values), upper=float(upper),
-        residual=left / size_of_forces,
+        residual=left / max(problem.reach * allowed, min(math.sqrt(load @ load), heaviest)),
         imbalance=left / max(balanced, SMALL_CAP * grasp.least_cap) * (virtual.role != 'pressing'),
         cone_usage=friction_cone.usage_of_shares(shares, unloaded=ROUNDING),
         bound_usage=used / allowed if allowed > 0.0 else float(used > 0.0) * np.inf,
@@ -190,11 +190,11 @@ def _judged(problem: ConicProblem, shares: Array, values: Array, multiplier: Arr
         block, groups, problem.virtual.columns[:, 0].copy(), problem.scaled_external_wrench.copy(),
         problem.reach, grasp.least_cap, float(values[0]), shares[:, (2, 0, 1, 3)].copy(order='C'),
         multiplier, SMALL_CAP, ROUNDING, per_group, usage)
-    multiplier *= scale
     return Proof(
         objective=alpha, upper=upper, residual=residual, imbalance=imbalance, cone_usage=usage,
-        bound_usage=used, multiplier=frozen(multiplier), size=problem.reach, joint_usage=NO_JOINTS,
-        bound_multiplier=frozen(per_group[groups] * scale), joint_multiplier=NO_JOINTS)
+        bound_usage=used, multiplier=frozen(multiplier * scale), size=problem.reach,
+        bound_multiplier=frozen(per_group[groups] * scale), joint_usage=NO_JOINTS,
+        joint_multiplier=NO_JOINTS)
 
 
 def held(values: Array, upper: float) -> Array:

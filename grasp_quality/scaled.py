@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import math
 from typing import TYPE_CHECKING
 
-from grasp_quality.arrays import Array, Ints
+from grasp_quality.arrays import Array, Ints, NO_LENGTH
 from grasp_quality.grasp import COINCIDENT, Grasp
 import numba
 import numpy as np
@@ -75,7 +75,7 @@ class Scaled:
             grasps.starts, members, groups, count, grasps.positions, grasps.rotations,
             grasps.friction, grasps.torsional_friction, grasps.max_normal_forces, scaled.blocks,
             scaled.units, scaled.centers, scaled.lever_arms, scaled.force_scales, scaled.reaches,
-            scaled.least_caps, COINCIDENT)
+            scaled.least_caps, COINCIDENT, NO_LENGTH)
         return scaled
 
     def wrenches(self, wrenches: Array, which: Ints) -> Array:
@@ -89,7 +89,7 @@ class Scaled:
 def scale_grasps(starts: Ints, members: Ints, groups: Ints, group_count: int, positions: Array,
                  rotations: Array, friction: Array, torsional: Array, caps: Array, blocks: Array,
                  units: Array, centers: Array, lever_arms: Array, force_scales: Array,
-                 reaches: Array, least_caps: Array, coincident: float) -> None:
+                 reaches: Array, least_caps: Array, coincident: float, no_length: float) -> None:
     """Fill the arrays of ``Scaled``; numba sees no change of a constant in another file."""
     k = len(groups)
     best = np.empty(group_count)
@@ -116,8 +116,8 @@ def scale_grasps(starts: Ints, members: Ints, groups: Ints, group_count: int, po
             y = positions[first + i, 1] - center[1]
             z = positions[first + i, 2] - center[2]
             arm = max(arm, math.sqrt(x * x + y * y + z * z))
-        if not arm > coincident * away:
-            arm = twist if twist > 0.0 else (away if away > 0.0 else 1.0)
+        if not arm > max(coincident * away, no_length):
+            arm = twist if twist > no_length else (away if away > no_length else 1.0)
         lever_arms[m], force_scales[m] = arm, largest
         reaches[m], least_caps[m] = best.sum() / largest, least / largest
         for i in range(k):

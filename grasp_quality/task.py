@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from grasp_quality.arrays import Array, checked, checked_number, frozen
+from grasp_quality.arrays import Array, checked, checked_number, frozen, SMALLEST
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.wrench import as_wrench
 import numpy as np
@@ -24,7 +24,7 @@ PARALLEL = 1e-9  # share of the axis below which what the laterals cannot cancel
 
 def _nonzero(value: ArrayLike, name: str) -> Array:
     wrench = as_wrench(value, name)
-    if not wrench.any():
+    if np.abs(wrench).max() < SMALLEST:
         raise InvalidTaskError(f'{name} must not be zero: a zero wrench has no direction to scale')
     return wrench
 
@@ -191,6 +191,6 @@ def check_rows(wrenches: Array, name: str) -> None:
     """Refuse an empty list of wrenches (n, 6), and one with a zero row."""
     if not len(wrenches):
         raise InvalidTaskError(f'{name} must hold at least one wrench, got none')
-    zero = [i for i, row in enumerate(wrenches) if not row.any()]
+    zero = [i for i, row in enumerate(wrenches) if np.abs(row).max() < SMALLEST]
     if zero:
         raise InvalidTaskError(f'{name} must not be zero, but rows {zero} are')

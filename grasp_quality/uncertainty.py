@@ -14,6 +14,7 @@ draws, and more samples begin with the fewer.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from grasp_quality.arrays import LARGEST
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp
 from grasp_quality.grasp_set import GraspSet
@@ -63,8 +64,8 @@ class Uncertainty:
         for field, name, length, largest in (
                 ('position', 'contact_noise [m]', self.contacts, LARGEST_POSITION),
                 ('normal', 'normal_noise [rad]', self.contacts, LARGEST_TILT),
-                ('friction', 'friction_noise', self.contacts, np.inf),
-                ('load', 'load_noise [N, N m]', 6, np.inf)):
+                ('friction', 'friction_noise', self.contacts, LARGEST),
+                ('load', 'load_noise [N, N m]', 6, LARGEST)):
             values = _deviations(getattr(self, field), name, length, largest)
             object.__setattr__(self, field, values)
 
@@ -78,11 +79,10 @@ def _deviations(value: ArrayLike, name: str, length: int, largest: float) -> Arr
     if array.shape not in ((), (length,)):
         raise InvalidTaskError(
             f'{name} must be a number or {length} numbers, got shape {array.shape}: {value!r}')
-    if not (np.isfinite(array).all() and (array >= 0.0).all() and (array <= largest).all()):
-        limit = f' and at most {largest:g}' if np.isfinite(largest) else ''
+    if not ((array >= 0.0).all() and (array <= largest).all()):
         raise InvalidTaskError(
-            f'{name} must be finite, at least 0{limit}: it is a standard deviation, '
-            f'got {array.tolist()}')
+            f'{name} must be finite, at least 0 and at most {largest:g}: it is a standard '
+            f'deviation, got {array.tolist()}')
     spread = np.empty(length)
     spread[:] = array
     spread.flags.writeable = False

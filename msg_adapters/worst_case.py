@@ -10,7 +10,7 @@ from grasp_quality.task import TaskEllipsoid
 from grasp_quality_msgs.srv import BallRadius
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.frames import Transform
-from msg_adapters.number_checks import checked_numbers
+from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.results import status_result
 from msg_adapters.tasks import wrench_rows
 from msg_adapters.wrenches import to_wrench, wrench_array
@@ -42,6 +42,9 @@ def ellipsoid_from(request: BallRadius.Request, transform: Transform | None,
     length, = checked_numbers([request.torque_length], 'torque_length')
     if length < 0.0:
         raise InvalidMessageError(f'torque_length [m] must be at least 0, got {length:g}')
+    if 0.0 < length < SMALLEST:
+        raise InvalidMessageError(
+            f'torque_length [m] must be 0 (1 m then) or at least {SMALLEST:g}, got {length:g}')
     if request.subspace not in ROWS:
         raise InvalidMessageError(
             f'subspace must be one of {sorted(ROWS)} (SUBSPACE_*), got {request.subspace}')

@@ -22,6 +22,9 @@ PLACE = 1e-9    # of positions [m, relative above one] and unit normals [-]
 JOINT = 1e-6    # of a joint's largest torque
 UNKNOWN = np.full(6, np.nan)  # no column: a node must refuse such joint limits
 SMALL = 1e-6    # share of the cap below which a contact counts as not loaded
+NO_LENGTH = 1e-12  # [m]
+COINCIDENT = 1e-8  # distance over distance from the origin of points that are the same
+BLUR = 1e-15    # of a force, in any direction: what float64 components keep of it
 
 
 @dataclass(frozen=True)
@@ -134,9 +137,10 @@ def _broken_force(force: Force, own: Limits) -> list[str]:
         return said
     parts = np.divide(carried, coefficient, out=np.zeros(3), where=coefficient > 0.0)
     norm = float(np.linalg.norm(parts))
-    if norm > n * (1.0 + CONE) + CONE * small:
+    blur = BLUR / (own.friction or 1.0)
+    if norm > n * (1.0 + CONE + blur) + CONE * small:
         said.append(f'it lies outside its friction cone: {norm:.9g} N where {n:.9g} N are carried')
-    if n > 10.0 * small and abs(norm / n - force.cone_usage) > CONE:
+    if n > 10.0 * small and abs(norm / n - force.cone_usage) > CONE + blur:
         said.append(f'its cone usage is {norm / n:.9g}, not {force.cone_usage:.9g}')
     return said
 
@@ -176,8 +180,10 @@ def broken_balance(
     missing = wanted - total
     missing[3:] -= np.cross(center, wanted[:3])
     caps = sum(limits[force.name].cap for force in forces)
-    arm = max(float(np.linalg.norm(points - center, axis=1).max()),
-              max(limits[force.name].torsional_friction for force in forces))
+    reach = float(np.linalg.norm(points - center, axis=1).max())
+    if reach <= max(COINCIDENT * float(np.abs(center).max()), NO_LENGTH):
+        reach = 0.0  # what rounding leaves is no arm
+    arm = max(reach, max(limits[force.name].torsional_friction for force in forces))
     arm = arm or max(1.0, float(np.abs(center).max()))
     # numbers about an origin that is far away carry the rounding of that distance
     size = caps + float(np.abs(wanted[:3]).max())

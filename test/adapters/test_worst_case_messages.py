@@ -52,6 +52,7 @@ def test_given_axes_are_brought_into_the_object_frame():
 @pytest.mark.parametrize('fields, words', [
     ({'subspace': 3}, r'subspace must be one of \[0, 1, 2\] .*got 3$'),
     ({'torque_length': -0.1}, r'torque_length \[m\] must be at least 0, got -0.1$'),
+    ({'torque_length': 1e-150}, r'torque_length \[m\] must be 0 .* or at least 1e-12, got 1e-150'),
     ({'torque_length': math.inf}, 'torque_length must be finite'),
     ({'external_wrench': wrench(fx=1.0)}, 'external_wrench must be zero.*evaluate_task_wrench$'),
     ({'external_wrench': wrench(fx=math.nan)}, 'external_wrench must be finite')])
