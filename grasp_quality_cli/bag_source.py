@@ -145,7 +145,14 @@ class BagSource:
         """Read all parts, one after the other; what breaks off is told in ``damage``."""
         for part in self.parts:
             try:
-                yield from part.records(wanted)
+                for record in part.records(wanted):
+                    # SQLite keeps values of any type in any column
+                    if isinstance(record.time_ns, int) and isinstance(record.data, bytes):
+                        yield record
+                    else:
+                        self.damage.append(
+                            f'{self.path}: a message of {record.topic} has no time or no bytes: '
+                            f'{record.time_ns!r:.40}, {record.data!r:.40}')
             except BagError as exc:
                 self.damage.append(str(exc))
 
