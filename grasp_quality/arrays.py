@@ -47,7 +47,7 @@ def checked(value: ArrayLike, shape: tuple[int | None, ...], name: str,
     """
     try:
         array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError) as exc:
+    except (TypeError, ValueError, OverflowError) as exc:
         raise error(f'{name} must be an array of {_words(shape)} numbers, got {value!r}') from exc
     fits = array.ndim == len(shape) and all(
         want is None or want == have for want, have in zip(shape, array.shape))
@@ -71,7 +71,7 @@ def checked_number(value: SupportsFloat, name: str, error: type[ValueError],
     """
     try:
         number = float(value)
-    except (TypeError, ValueError) as exc:
+    except (TypeError, ValueError, OverflowError) as exc:
         raise error(f'{name} must be a number, got {value!r}') from exc
     if not abs(number) <= LARGEST:  # nan is not either
         raise error(f'{name} must be finite and at most {LARGEST:g} in size, got {number}')

@@ -17,7 +17,7 @@ from grasp_quality.grasp import Grasp
 from grasp_quality.kinks import Uniqueness, uniqueness
 from grasp_quality.problem import build_problem
 from grasp_quality.slopes import (
-    changed_along, largest_alpha, one_sided_slopes, Slopes, smooth_slopes)
+    can_step, changed_along, largest_alpha, one_sided_slopes, Slopes, smooth_slopes)
 from grasp_quality.solution import Solution
 from grasp_quality.solve import solve
 from grasp_quality.task import TaskCone, TaskWrench
@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 # one unit of change of each kind: a newton, a hundredth, a millimetre, a degree
+NO_SLOPE = 1e-140  # squares of what is smaller leave float64: it has no direction
 UNITS = {'max_force': 1.0, 'friction': 0.01, 'position': 1e-3, 'rotation': np.deg2rad(1.0)}
 
 
@@ -156,7 +157,8 @@ def explain(grasp: Grasp, task: TaskWrench | TaskCone, external_wrench: ArrayLik
     best = None
     if solution.feasible:
         made = [(gain, kind, i, way, alpha(changed_along(grasp, i, kind, UNITS[kind] * way)))
-                for gain, kind, i, way in candidates(forward, backward)]
+                for gain, kind, i, way in candidates(forward, backward)
+                if can_step(grasp, i, kind, UNITS[kind])]
         size = max(solution.alpha, 1e-3 * problem.reach * problem.virtual.unit)
         made = [row for row in made if row[-1] > solution.alpha + sensitivity.NEGLIGIBLE * size]
         if made:
@@ -181,7 +183,7 @@ def candidates(forward: Slopes, backward: Slopes) -> list[tuple[float, str, int,
         way = np.where(ahead > -behind, np.maximum(ahead, 0.0), np.minimum(behind, 0.0))
         sizes = np.linalg.norm(way, axis=1)
         i = int(np.argmax(sizes))
-        if sizes[i] > 0.0:
+        if sizes[i] > NO_SLOPE:
             found.append((float(sizes[i]) * UNITS[kind], kind, i,
                           np.append(way[i] / sizes[i], 0.0)))
     return [row for row in found if row[0] > 0.0]

@@ -12,7 +12,7 @@ from collections.abc import Callable
 import itertools
 from typing import Any
 
-from grasp_quality.arrays import Array, frozen
+from grasp_quality.arrays import Array, frozen, SMALLEST
 from grasp_quality.batch import solve_wrenches
 from grasp_quality.grasp import Grasp
 from grasp_quality.solution import PolytopeSolution, Solution, Status
@@ -67,7 +67,7 @@ def _summary(grasp: Grasp, solutions: list[Solution], weights: Array) -> dict[st
 def _largest_scale(grasp: Grasp, reached: Array, external_wrench: ArrayLike | None,
                    time_limit_s: Limit) -> float:
     """Least alpha over the corners sum_{i in S} alpha_i F_i, at most 1."""
-    reached = reached[reached.any(axis=1)]
+    reached = reached[np.abs(reached).max(axis=1) >= SMALLEST]
     size = np.abs(reached).max(initial=0.0)
     corners = [np.sum(subset, axis=0) for count in range(2, len(reached) + 1)
                for subset in itertools.combinations(reached, count)]

@@ -75,7 +75,8 @@ def quantile_interval(ordered: NDArray[np.float64], level: float,
 def _binomial_distribution(count: int, share: float) -> NDArray[np.float64]:
     """P(at most i of count) for i = 0 ... count - 1 (count,), each with probability share."""
     i = np.arange(count - 1)
-    ratios = np.log((count - i) / (i + 1.0) * (share / (1.0 - share)))  # of one term to the next
+    odds = math.log(share) - math.log1p(-share)
+    ratios = np.log((count - i) / (i + 1.0)) + odds  # of one term to the next
     first = count * math.log1p(-share)
     distribution: NDArray[np.float64] = np.cumsum(
         np.exp(first + np.concatenate([[0.0], np.cumsum(ratios)])))

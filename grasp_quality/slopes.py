@@ -10,7 +10,7 @@ differences of alpha itself, of second order, over steps that are small against 
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from grasp_quality.contact import ContactModel
+from grasp_quality.contact import ContactModel, FARTHEST
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.grasp import Grasp
 from grasp_quality.problem import build_problem
@@ -94,7 +94,9 @@ def step_of(grasp: Grasp, i: int, field: str) -> float:
 
 
 def can_step(grasp: Grasp, i: int, field: str, h: float) -> bool:
-    """Whether a contact can be changed by h: friction cannot fall below zero."""
+    """Whether a contact can be changed by h: neither friction below 0 nor out of the world."""
+    if field == 'position':
+        return float(np.abs(grasp.positions[i]).max()) + abs(h) <= FARTHEST
     return field != 'friction' or float(grasp.contacts.friction[i]) + h >= 0.0
 
 

@@ -19,6 +19,7 @@ from grasp_quality.wrench import as_wrench
 import numpy as np
 from numpy.typing import ArrayLike
 
+MOST_SAMPLES = 1_000_000  # of a cone's surface: each is a solve
 PARALLEL = 1e-9  # share of the axis below which what the laterals cannot cancel counts as nothing
 
 
@@ -89,8 +90,9 @@ class TaskCone:
         object.__setattr__(self, 'half_angle', checked_number(
             self.half_angle, 'half_angle [rad]', InvalidTaskError, minimum=0.0, below=np.pi / 2))
         samples = self.surface_samples
-        if not isinstance(samples, (int, np.integer)) or samples < 0:
-            raise InvalidTaskError(f'surface_samples must be a whole number >= 0, got {samples!r}')
+        if not isinstance(samples, (int, np.integer)) or not 0 <= samples <= MOST_SAMPLES:
+            raise InvalidTaskError(
+                f'surface_samples must be a whole number from 0 to {MOST_SAMPLES}, got {samples!r}')
         if self._holds_zero():
             raise InvalidTaskError(
                 'the task cone holds the zero wrench, so that alpha_z has no end: axis '

@@ -73,7 +73,7 @@ class Uncertainty:
 def _deviations(value: ArrayLike, name: str, length: int, largest: float) -> Array:
     try:
         array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError) as exc:
+    except (TypeError, ValueError, OverflowError) as exc:
         raise InvalidTaskError(
             f'{name} must be a number or {length} numbers, got {value!r}') from exc
     if array.shape not in ((), (length,)):

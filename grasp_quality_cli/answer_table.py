@@ -12,6 +12,7 @@ from grasp_quality_cli.grasp_file import Task
 import numpy as np
 from numpy.typing import NDArray
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 REASONS = {'slip': 'by slip: more friction or a higher cap there would help most',
@@ -66,7 +67,7 @@ def _print_one(console: Console, row: Row) -> None:
         table.add_column(name, justify='left' if name == 'contact' else 'right', no_wrap=True)
     forces = np.array([contact['force'] for contact in row['forces']])
     for contact, force in zip(row['forces'], rounded(forces)):
-        table.add_row(contact['name'], *(f'{value:.4g}' for value in force),
+        table.add_row(escape(contact['name']), *(f'{value:.4g}' for value in force),
                       f'{contact["cone_usage"]:.1%}', f'{contact["cap_usage"]:.1%}')
     console.print(facts, table, sep='\n')
 
@@ -87,7 +88,7 @@ def _facts(row: Row) -> Iterator[tuple[str, str]]:
     yield ('friction margin', f'{row["friction_margin"]:.1%}'
            + (edge if row['friction_margin'] < NO_MARGIN else ''))
     if row['limiting_contact']:
-        yield 'limited by', f'{row["limiting_contact"]}, {REASONS[row["limiting_reason"]]}'
+        yield 'limited by', f'{escape(row["limiting_contact"])}, {REASONS[row["limiting_reason"]]}'
 
 
 def numbers(values: NDArray[np.float64] | list[float]) -> str:

@@ -80,7 +80,7 @@ def evaluate_bag(
             print_json({**summary.row(), 'problems': _problem_rows(problems),
                         'damage': source.damage, 'files': [str(file) for file in files]})
         else:
-            _print(Console(), summary, problems, files)
+            _print(Console(markup=False), summary, problems, files)
     if source.damage or not summary.samples:
         raise typer.Exit(READ_IN_PART)
 
@@ -88,7 +88,7 @@ def evaluate_bag(
 @contextmanager
 def _progress(total: int | None) -> Iterator[Callable[[int], None]]:
     """Show a bar on standard error, where that is a terminal."""
-    console = Console(stderr=True)
+    console = Console(stderr=True, markup=False)
     columns = (TextColumn('reading'), BarColumn(), MofNCompleteColumn(), TextColumn('messages'),
                TimeRemainingColumn())
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:

@@ -39,6 +39,6 @@ def paper_figures(
     for number in found:
         table.add_row(number.figure, number.what, f'{number.expected:.6g}',
                       f'{number.here:.6g}')
-    Console().print(table)
+    Console(markup=False).print(table)
     for file in files:
         print(file)

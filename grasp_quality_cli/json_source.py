@@ -64,7 +64,7 @@ class JsonItem(SourceItem):
         """Read a string."""
         if not isinstance(self.value, str):
             self.fail(f'must be a text, got {self._got()}')
-        return self.value
+        return self.checked_text(self.value)
 
     def number(self) -> float:
         """Read a finite number."""

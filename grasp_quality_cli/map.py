@@ -59,7 +59,7 @@ def map_grasp(
     if json:
         print_json(row)
     else:
-        Console().print(
+        Console(markup=False).print(
             f'{len(directions):,} directions: from {row["alpha_min"]:.6g} to '
             f'{row["alpha_max"]:.6g} {unit}; {np.count_nonzero(~found.feasible):,} infeasible\n'
             f'{output}', soft_wrap=True)

@@ -65,6 +65,14 @@ class SourceItem(ABC):
         """Raise the FileError of this value: it must be so, but is not."""
         raise FileError(f'{self.file}:{self.line}: {self.name} {rule}')
 
+    def checked_text(self, text: str) -> str:
+        """Return a text that can be printed and stored: half a character cannot."""
+        try:
+            text.encode()
+        except UnicodeEncodeError:
+            self.fail(f'must be text of whole Unicode characters, got {text!a}')
+        return text
+
     def below(self, key: str) -> str:
         """Name of a field of this value."""
         return key if self.name == WHOLE else f'{self.name}.{key}'

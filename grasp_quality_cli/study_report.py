@@ -31,7 +31,7 @@ class Report:
     """
 
     def __init__(self, weight: int) -> None:
-        self._console = Console(stderr=True)
+        self._console = Console(stderr=True, markup=False)
         self._progress = Progress(
             TextColumn('{task.fields[rows]} rows, {task.fields[bad]} bad'), BarColumn(),
             TaskProgressColumn(), TimeRemainingColumn(), console=self._console,
@@ -86,4 +86,4 @@ def print_summary(summary: Mapping[str, Any]) -> None:
     facts.add_row('answers in', escape(summary['output']))
     if summary['bad_rows_file']:
         facts.add_row('bad rows in', escape(summary['bad_rows_file']))
-    Console(soft_wrap=True).print(facts)
+    Console(soft_wrap=True, markup=False).print(facts)

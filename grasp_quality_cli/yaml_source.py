@@ -64,7 +64,7 @@ class YamlItem(SourceItem):
         """Read a string."""
         if not isinstance(self.node, yaml.ScalarNode):
             self.fail(f'must be a single value, got {self._got()}')
-        return str(self.node.value)
+        return self.checked_text(str(self.node.value))
 
     def number(self) -> float:
         """Read a finite number; 1e-3 is one, unlike in YAML 1.1."""
@@ -100,11 +100,13 @@ def load_yaml(path: Path | str) -> YamlItem:
         raise FileError(f'{path}: cannot be read: {exc.strerror}') from exc
     except UnicodeDecodeError as exc:
         raise FileError(f'{path}: is not a text file in UTF-8: {exc}') from exc
+    except RecursionError as exc:
+        raise FileError(f'{path}: is not YAML: it is nested too deeply') from exc
     except yaml.MarkedYAMLError as exc:
         mark = exc.problem_mark or exc.context_mark
         where = f'{path}:{mark.line + 1}' if mark else str(path)
         raise FileError(f'{where}: is not YAML: {exc.problem or exc.context}') from exc
-    except yaml.YAMLError as exc:
+    except (yaml.YAMLError, ValueError, OverflowError) as exc:  # as of \\U beyond the last character
         raise FileError(f'{path}: is not YAML: {exc}') from exc
     if node is None:
         raise FileError(f'{path}:1: is empty')

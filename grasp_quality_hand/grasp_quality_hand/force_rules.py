@@ -184,7 +184,8 @@ def broken_balance(
     if reach <= max(COINCIDENT * float(np.abs(center).max()), NO_LENGTH):
         reach = 0.0  # what rounding leaves is no arm
     arm = max(reach, max(limits[force.name].torsional_friction for force in forces))
-    arm = arm or max(1.0, float(np.abs(center).max()))
+    if arm <= NO_LENGTH:
+        arm = max(1.0, float(np.abs(center).max()))
     # numbers about an origin that is far away carry the rounding of that distance
     size = caps + float(np.abs(wanted[:3]).max())
     rounding = 1e-14 * size * float(np.abs(points).max()) / arm
