@@ -92,7 +92,8 @@ class TaskCone:
         samples = self.surface_samples
         if not isinstance(samples, (int, np.integer)) or not 0 <= samples <= MOST_SAMPLES:
             raise InvalidTaskError(
-                f'surface_samples must be a whole number from 0 to {MOST_SAMPLES}, got {samples!r}')
+                f'surface_samples must be a whole number >= 0 and at most {MOST_SAMPLES}, '
+                f'got {samples!r}')
         if self._holds_zero():
             raise InvalidTaskError(
                 'the task cone holds the zero wrench, so that alpha_z has no end: axis '

@@ -144,17 +144,18 @@ class BagSource:
     def records(self, wanted: Wanted) -> Iterator[Record]:
         """Read all parts, one after the other; what breaks off is told in ``damage``."""
         for part in self.parts:
+            strange = 0  # SQLite keeps values of any type in any column
             try:
                 for record in part.records(wanted):
-                    # SQLite keeps values of any type in any column
                     if isinstance(record.time_ns, int) and isinstance(record.data, bytes):
                         yield record
                     else:
-                        self.damage.append(
-                            f'{self.path}: a message of {record.topic} has no time or no bytes: '
-                            f'{record.time_ns!r:.40}, {record.data!r:.40}')
+                        strange += 1
             except BagError as exc:
                 self.damage.append(str(exc))
+            if strange:
+                self.damage.append(f'{self.path}: {strange:,} messages have a time that is no '
+                                   'whole number, or content that is no bytes')
 
 
 def _by_number(path: Path) -> list[tuple[int, str]]:

@@ -106,7 +106,7 @@ def load_yaml(path: Path | str) -> YamlItem:
         mark = exc.problem_mark or exc.context_mark
         where = f'{path}:{mark.line + 1}' if mark else str(path)
         raise FileError(f'{where}: is not YAML: {exc.problem or exc.context}') from exc
-    except (yaml.YAMLError, ValueError, OverflowError) as exc:  # as of \\U beyond the last character
+    except (yaml.YAMLError, ValueError, OverflowError) as exc:  # as of \\UFFFFFFFF
         raise FileError(f'{path}: is not YAML: {exc}') from exc
     if node is None:
         raise FileError(f'{path}:1: is empty')
