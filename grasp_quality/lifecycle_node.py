@@ -14,6 +14,7 @@ import os
 from geometry_msgs.msg import PoseArray, WrenchStamped
 from grasp_quality import node_parameters as parameters
 from grasp_quality.node_diagnostics import Monitor, PERIOD_S
+from grasp_quality.node_guards import guard_services
 from grasp_quality.node_holding import HoldingForces
 from grasp_quality.node_inputs import Inputs
 from grasp_quality.node_live import LiveLoop
@@ -76,7 +77,7 @@ class GraspQualityNode(LifecycleNode):
         self.add_on_set_parameters_callback(
             lambda changes: parameters.check(self.settings, changes))
         self.add_post_set_parameters_callback(self._guarded(self._on_parameters))
-        self._guard_lifecycle_services()
+        guard_services(self)
 
     def _listen_to_transforms(self):
         try:
@@ -89,12 +90,16 @@ class GraspQualityNode(LifecycleNode):
     def _subscribe(self):
         def subscribe(message_type, topic, receive, profile):
             self.create_subscription(
-                message_type, topic, self._guarded(receive), profile,
+                message_type, topic, receive, profile,
                 event_callbacks=SubscriptionEventCallbacks(use_default_callbacks=False))
 
+        def sample(receive):
+            receive = self._guarded(receive)
+            return lambda message, info: receive(message, info['source_timestamp'])
+
         def then_evaluate(keep):
-            def receive(message):
-                keep(message)
+            def receive(*message):
+                keep(*message)
                 self._evaluate()
             return receive
 
@@ -102,12 +107,13 @@ class GraspQualityNode(LifecycleNode):
         inputs, sensor, command = self._inputs, qos.newest_sample(), qos.newest_command()
         for name in self.settings.contact_names:
             subscribe(WrenchStamped, f'~/contact_wrenches/{name}',
-                      functools.partial(inputs.store_wrench, name), sensor)
-        subscribe(WrenchStamped, '~/task_wrench', then_evaluate(inputs.store_task_wrench), command)
-        subscribe(WrenchStamped, '~/external_wrench', then_evaluate(inputs.store_load), command)
+                      sample(functools.partial(inputs.store_wrench, name)), sensor)
+        for topic, keep in (('~/task_wrench', inputs.store_task_wrench),
+                            ('~/external_wrench', inputs.store_load)):
+            subscribe(WrenchStamped, topic, self._guarded(then_evaluate(keep)), command)
         source = {'pose_array': (PoseArray, '~/contact_poses'),
                   'contact_array': (ContactArray, '~/contacts')}[self.settings.contact_source]
-        subscribe(*source, then_evaluate(inputs.store_contacts), sensor)
+        subscribe(*source, sample(then_evaluate(inputs.store_contacts)), sensor)
 
     def _guarded(self, callback):
         """Keep every exception inside the callback it came from."""
@@ -120,20 +126,6 @@ class GraspQualityNode(LifecycleNode):
                     f'internal error, please report it: {type(exc).__name__}: {exc}',
                     throttle_duration_sec=1.0)
         return run
-
-    def _guard_lifecycle_services(self):
-        # rclpy lets an impossible transition escape into spin() and leaves its client waiting
-        service = self._service_change_state
-        change_state = service.callback
-
-        def answer(request, response):
-            try:
-                return change_state(request, response)
-            except Exception as exc:
-                self.get_logger().warning(f'no such transition from here: {exc}')
-                response.success = False
-                return response
-        service.callback = answer
 
     def _evaluate(self):
         if self.active:

@@ -15,13 +15,15 @@ MISSING_INTERFACES = (
     'a workspace run `colcon build --base-paths src "src/*/*"` and source install/setup.bash '
     '(README, "In a ROS 2 workspace"); in a clone run `make setup` and `. ./env.sh`')
 
+NO_LOG_FILE = ('--ros-args', '--disable-external-lib-logs', '--')
+
 
 def main(args=None):
     """Run the node until a signal comes; return the process's exit code."""
     try:
         import grasp_quality_msgs  # noqa: F401
     except ImportError:
-        print(MISSING_INTERFACES, file=sys.stderr)
+        _say(MISSING_INTERFACES)
         return 1
     import rclpy
     from rclpy.executors import SingleThreadedExecutor
@@ -31,9 +33,9 @@ def main(args=None):
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: stopping.append(True))
     try:
-        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+        _init(rclpy, sys.argv if args is None else args, SignalHandlerOptions.NO)
     except Exception as exc:  # RCLError, UnknownROSArgsError, ...: no common base
-        print(f'grasp_quality_node: {type(exc).__name__}: {exc}', file=sys.stderr)
+        _say(f'grasp_quality_node: {type(exc).__name__}: {exc}')
         return 1
     try:
         node = _make_node()
@@ -53,6 +55,26 @@ def main(args=None):
     return 0
 
 
+def _say(text):
+    try:
+        print(text, file=sys.stderr, flush=True)
+    except OSError:  # whoever listens is gone, or the disk is full
+        pass
+
+
+def _init(rclpy, args, signals):
+    """Begin with ROS; without its log file where none can be made, as on a full disk."""
+    from rclpy.utilities import get_default_context
+    try:
+        rclpy.init(args=args, signal_handler_options=signals)
+    except Exception as exc:
+        if 'logging' not in str(exc):
+            raise
+        _say(f'grasp_quality_node: goes on without a log file: {exc}')
+        get_default_context(shutting_down=True)  # a context can begin once only: take another
+        rclpy.init(args=[*args, *NO_LOG_FILE], signal_handler_options=signals)
+
+
 def _make_node():
     from rclpy.lifecycle import TransitionCallbackReturn
 
@@ -60,7 +82,7 @@ def _make_node():
     try:
         node = GraspQualityNode()
     except Exception as exc:  # ValueError, ParameterException, RCLError of the middleware, ...
-        print(f'grasp_quality_node: {exc}', file=sys.stderr)
+        _say(f'grasp_quality_node: {exc}')
         return None
     if node.settings.autostart:
         done = node.trigger_configure() == TransitionCallbackReturn.SUCCESS \

@@ -6,7 +6,8 @@ What the node has received: the newest message of every topic, and how old it is
 Nothing is judged on arrival. ``scene`` turns the newest contacts into core objects when they are
 asked for; a message that cannot be used is an error there, and the next good one is all it takes
 to recover. Arrival is told by the steady clock, stamps by the ROS clock: contacts are as old as
-the older of the two says. Task and load hold until they are replaced.
+the older of the two says. Without a stamp they are as old as their sending, by the clock of the
+sender: they may have waited in a queue. Task and load hold until they are replaced.
 """
 
 from __future__ import annotations
@@ -66,7 +67,7 @@ class Inputs:
     Newest messages, of ROS or of a recorded bag: only their fields are read.
 
     ``settings()`` returns the current Settings, ``now_ns()`` the ROS time and ``steady_ns()`` that
-    of the steady clock.
+    of the steady clock; ``sent_ns`` when a message was sent, by the system clock of the sender.
 
     """
 
@@ -89,12 +90,18 @@ class Inputs:
         self._contacts = None
         self._wrenches = {}
 
-    def store_contacts(self, message: Stamped) -> bool:
+    def store_contacts(self, message: Stamped, sent_ns: int | None = None) -> bool:
         """Keep a PoseArray or ContactArray, unless one with a later stamp is fresh; tell if so."""
         if self._is_late(message):
             return False
-        self._contacts = (message, self._steady_ns())
+        self._contacts = (message, self._arrival_ns(message, sent_ns))
         return True
+
+    def _arrival_ns(self, message: Stamped, sent_ns: int | None) -> int:
+        """Steady time of arrival; without a stamp, of sending: it may have waited in a queue."""
+        waited = 0 if sent_ns is None or stamp_ns(message.header.stamp) \
+            else max(0, time.time_ns() - sent_ns)
+        return self._steady_ns() - waited
 
     def _is_late(self, message: Stamped) -> bool:
         if self._contacts is None or not stamp_ns(message.header.stamp):
@@ -105,9 +112,10 @@ class Inputs:
             return False
         return stamp_ns(message.header.stamp) < stamp_ns(self._contacts[0].header.stamp)
 
-    def store_wrench(self, name: str, message: StampedWrench) -> None:
+    def store_wrench(
+            self, name: str, message: StampedWrench, sent_ns: int | None = None) -> None:
         """Keep the measured WrenchStamped of a contact."""
-        self._wrenches[name] = (message, self._steady_ns())
+        self._wrenches[name] = (message, self._arrival_ns(message, sent_ns))
 
     def set_task(self, request: Any) -> None:
         """Keep a SetTask request: its task, and its external wrench as the load."""
@@ -149,7 +157,8 @@ class Inputs:
                 'the clocks (max_contact_age is the tolerance)')
         if max(ages) > limit:
             raise StaleContactsError(
-                f'the newest contacts are {max(ages):.3f} s old, max_contact_age is {limit:g} s')
+                f'the newest contacts are {max(ages):.3f} s old, max_contact_age is {limit:g} s'
+                + ' (not stamped: as sent)' * (stamp_ns(message.header.stamp) == 0))
         return max(max(ages), 0.0)
 
     def scene(self) -> Scene:

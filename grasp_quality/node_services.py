@@ -23,6 +23,7 @@ from grasp_quality.solution import Status
 from grasp_quality.task import TaskWrench
 from grasp_quality.time_limit import TimeLimit
 from grasp_quality_msgs import srv
+from msg_adapters import qos
 from msg_adapters.errors import InvalidMessageError, NotActiveError
 from msg_adapters.explanations import fill_explanation
 from msg_adapters.forces import force_array
@@ -61,7 +62,7 @@ class Services:
                 (srv.SetTask, self.set_task)):
             waits = inspect.iscoroutinefunction(handler)
             node.create_service(
-                kind, f'~/{handler.__name__}', self._bounded(handler),
+                kind, f'~/{handler.__name__}', self._bounded(handler), qos_profile=qos.questions(),
                 callback_group=MutuallyExclusiveCallbackGroup() if waits else None)
 
     def _bounded(self, handler):

@@ -5,6 +5,7 @@
 from dataclasses import dataclass
 
 from grasp_quality.arrays import Array
+import numpy as np
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,5 +33,7 @@ class RawAnswer:
 
     @property
     def solved(self) -> bool:
-        """Whether the solver met its tolerances; almost solved is not solved."""
-        return self.status == 'Solved'
+        """Whether the solver met its tolerances, with numbers; almost solved is not solved."""
+        # no proof sees an infinite alpha: it holds alpha to the upper bound
+        return self.status == 'Solved' and all(
+            np.isfinite(part).all() for part in (self.shares, self.values, self.multipliers))

@@ -20,6 +20,19 @@ def newest_command() -> QoSProfile:
     return _depth_one(ReliabilityPolicy.RELIABLE)
 
 
+def questions() -> QoSProfile:
+    """
+    Services: reliable, with room for a thousand questions or answers, as for parameters of ROS.
+
+    Every client of a service receives the answers to all of them and keeps as many as its depth
+    says, its own or not: at ROS 2's usual 10 a client that looks too seldom loses its own answer.
+
+    """
+    return QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=1000,
+                      reliability=ReliabilityPolicy.RELIABLE,
+                      durability=DurabilityPolicy.VOLATILE)
+
+
 def display() -> QoSProfile:
     """Markers: reliable, and none overwritten by the next, because one may take others away."""
     return QoSProfile(history=HistoryPolicy.KEEP_LAST, depth=10,

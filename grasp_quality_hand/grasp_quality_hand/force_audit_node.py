@@ -22,7 +22,7 @@ from grasp_quality_hand import audit_messages
 from grasp_quality_hand.audit_parts import Forces, Settings
 from grasp_quality_hand.force_records import ForceRecords
 from grasp_quality_msgs.msg import ContactArray, ContactForceArray, GraspQuality
-from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent
 from rcl_interfaces.srv import GetParameters
 import rclpy
 from rclpy.clock import Clock, ClockType
@@ -57,6 +57,7 @@ class ForceAuditNode(Node):
                             'are sent [s]', read_only=True)).value)
         self._recent: list[str] = []
         self._asked: Any = None
+        self._settings: Settings | None = None
         self._holding = False
         self._wrench_topics: set[str] = set()
         self._parameter_client = self.create_client(GetParameters, f'{self.target}/get_parameters')
@@ -68,6 +69,7 @@ class ForceAuditNode(Node):
                 (ContactForceArray, 'contact_forces', OUTPUT, self._read_forces),
                 (Float64, 'alpha', OUTPUT, audit_messages.read_alpha)):
             self._listen(kind, topic, profile, read)
+        self.create_subscription(ParameterEvent, '/parameter_events', self._change, OUTPUT)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(JUDGE_PERIOD_S, self._judge, clock=steady)
         self.create_timer(REPORT_PERIOD_S, self._report, clock=steady)
@@ -116,13 +118,24 @@ class ForceAuditNode(Node):
             if len(values) == len(PARAMETERS):
                 values = [tuple(v or ()) if name in ('contact_names', 'contact_fingers') else v
                           for name, v in zip(PARAMETERS, values)]
-                self.records.store(Settings(*values), time.monotonic())
+                self._hold(Settings(*values))
             self._asked = None
         if not self._parameter_client.service_is_ready():
             self._asked = None  # an answer of a node that is gone never comes
         elif self._asked is None:
             request = GetParameters.Request(names=PARAMETERS)
             self._asked = self._parameter_client.call_async(request)
+
+    def _change(self, event: ParameterEvent) -> None:
+        """Note each change of parameters as it is made: many may lie between two questions."""
+        if event.node == self.target and self._settings is not None:
+            changes = {p.name: parameter_value_to_python(p.value)
+                       for p in event.changed_parameters if p.name in PARAMETERS}
+            self._hold(dataclasses.replace(self._settings, **changes))
+
+    def _hold(self, settings: Settings) -> None:
+        self._settings = settings
+        self.records.store(settings, time.monotonic())
 
     def summary(self) -> str:
         """Say in one line what was seen."""

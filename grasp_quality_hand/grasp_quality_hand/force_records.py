@@ -97,8 +97,8 @@ class ForceRecords:
     def _settings(self, arrived_s: float) -> list[Settings]:
         """Return those in force at some time from two grace times before to one after."""
         ends = [since_s for since_s, _ in self._kept.get(Settings, ())][1:] + [np.inf]
-        return [settings for end_s, settings in zip(ends, self._parts(Settings))
-                if end_s >= arrived_s - 2 * GRACE_S]
+        return list({settings: None for end_s, settings in zip(ends, self._parts(Settings))
+                     if end_s >= arrived_s - 2 * GRACE_S})
 
     def _judge_forces(self, arrived_s: float, part: Forces) -> list[str]:
         settings = self._settings(arrived_s)

@@ -10,7 +10,7 @@ from grasp_quality import build_problem, clarabel_solver, SolverError, TaskWrenc
 from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.proof import prove, worth_of
 from grasp_quality.raw_answer import RawAnswer
-from grasp_quality.solve import prove_optimal
+from grasp_quality.solve import first_proved, prove_optimal
 from known_grasps import antipodal, FY, three_finger
 import numpy as np
 import pytest
@@ -100,6 +100,16 @@ def test_unproved_answers_end_as_an_error(monkeypatch):
     with pytest.raises(SolverError, match='no answer could be proved.*gap.*residual') as caught:
         prove_optimal(problem)
     assert caught.value.problem is problem
+
+
+@pytest.mark.parametrize('bound', ['linf', 'l2'])
+@pytest.mark.parametrize('number', [np.inf, -np.inf, np.nan])
+def test_an_alpha_that_is_no_number_is_no_answer(bound, number):
+    problem, answer = solved(bound)
+    for part in ('values', 'shares', 'multipliers'):
+        lie = dataclasses.replace(answer, **{part: np.full_like(getattr(answer, part), number)})
+        with pytest.raises(SolverError, match='no answer could be proved'):
+            first_proved(problem, [lie])
 
 
 def test_a_task_left_open_beside_a_press_is_not_overlooked():

@@ -18,6 +18,7 @@ import subprocess
 import time
 
 from ament_index_python.packages import get_package_prefix
+from msg_adapters import qos
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -100,12 +101,14 @@ def start_node(log, namespace, *arguments, environment=None, **parameters):
     return Process(command, log, environment=environment)
 
 
-def start_audit(log, namespace):
+def start_audit(log, namespace, **parameters):
     """Start the independent check of all forces that the node in a namespace publishes."""
     prefix = Path(get_package_prefix('grasp_quality_hand'))
-    return Process(
-        [prefix / 'lib' / 'grasp_quality_hand' / 'force_audit', '--ros-args', '-r',
-         f'__ns:={namespace}', '-p', f'target:={namespace}/grasp_quality'], log)
+    command = [prefix / 'lib' / 'grasp_quality_hand' / 'force_audit', '--ros-args', '-r',
+               f'__ns:={namespace}', '-p', f'target:={namespace}/grasp_quality']
+    for name, value in parameters.items():
+        command += ['-p', f'{name}:={value}']
+    return Process(command, log)
 
 
 class Client:
@@ -152,7 +155,8 @@ class Client:
         """Call ~/name of the node and return its response."""
         client = self._clients.get(name)
         if client is None:
-            client = self._clients[name] = self.node.create_client(kind, f'{self.target}/{name}')
+            client = self._clients[name] = self.node.create_client(
+                kind, f'{self.target}/{name}', qos_profile=qos.questions())
         self.until(client.service_is_ready, f'service {name}', feed)
         future = client.call_async(kind.Request(**fields))
         self.until(future.done, f'an answer of {name}', feed)

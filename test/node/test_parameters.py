@@ -9,6 +9,7 @@ from grasps import ANTIPODAL, pose_array, SOLVER
 from harness import BEST_EFFORT
 from outputs import Outputs
 import pytest
+from rcl_interfaces.msg import Parameter as ParameterMessage, ParameterValue
 from rcl_interfaces.srv import (
     DescribeParameters, GetParameters, ListParameters, SetParameters, SetParametersAtomically)
 from rclpy.parameter import Parameter
@@ -111,6 +112,18 @@ def test_a_bad_value_is_refused_with_a_reason_and_changes_nothing(client, alpha,
     result, = change(client, **changes)
     assert not result.successful and words in result.reason
     assert client.call(GetParameters, 'get_parameters', names=[name]).values == before
+    alpha(10.0)
+
+
+def test_a_parameter_of_an_unknown_type_is_refused_and_its_client_answered(client, alpha):
+    unknown = ParameterMessage(name='friction_coefficient', value=ParameterValue(type=77))
+    answer = client.call(SetParameters, 'set_parameters', parameters=[
+        *messages({'friction_coefficient': 0.5}), unknown, unknown])
+    assert [result.successful for result in answer.results] == [True, False, False]
+    assert '77' in answer.results[1].reason
+    result = client.call(SetParametersAtomically, 'set_parameters_atomically',
+                         parameters=[unknown]).result
+    assert not result.successful and '77' in result.reason
     alpha(10.0)
 
 
