@@ -7,11 +7,12 @@ DEMO_FLAGS ?=
 TEST_FLAGS ?=
 BENCH_FLAGS ?=
 TRUTH_FLAGS ?=
+SOAK_FLAGS ?=
 MUTANTS_FLAGS ?=
 FUZZ_FLAGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test lint coverage bench truth mutants fuzz clean
+.PHONY: help setup demo test lint coverage bench truth mutants fuzz soak clean
 
 help:
 	@echo 'make setup   make .venv (ROS included, where there is none) and build the packages'
@@ -24,6 +25,8 @@ help:
 	@echo 'make truth   prediction against physics, docs/truth.md (TRUTH_FLAGS goes to it)'
 	@echo 'make mutants whether the tests notice changes of the code (MUTANTS_FLAGS goes to it)'
 	@echo 'make fuzz    a million spoilt messages, judged, docs/reliability.md (FUZZ_FLAGS goes to it)'
+	@echo 'make soak    ten minutes at 200 Hz with random faults, docs/reliability.md'
+	@echo '             (SOAK_FLAGS="--seconds 120" is the short form of make test)'
 	@echo 'make clean   remove .venv, build/, install/ and log/'
 	@echo 'PYTHON=/path/to/python3.12 chooses the interpreter'
 
@@ -53,6 +56,9 @@ mutants: setup
 
 fuzz: setup
 	@. ./env.sh && exec python -m benchmarks.fuzz $(FUZZ_FLAGS)
+
+soak: setup
+	@. ./env.sh && exec python -m benchmarks.soak $(SOAK_FLAGS)
 
 clean:
 	rm -rf .venv build install log .pytest_cache .hypothesis

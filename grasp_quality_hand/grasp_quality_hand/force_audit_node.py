@@ -25,6 +25,7 @@ from grasp_quality_msgs.msg import ContactArray, ContactForceArray, GraspQuality
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent
 from rcl_interfaces.srv import GetParameters
 import rclpy
+from rclpy.callback_groups import CallbackGroup
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -37,9 +38,32 @@ INPUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
 OUTPUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
 JUDGE_PERIOD_S = 0.2
 REPORT_PERIOD_S = 1.0
+ANSWER_S = 1.0  # after which an answer about parameters will not come
 PLAIN_NAME = re.compile('[A-Za-z_][A-Za-z0-9_]*')  # others make no topic
 SHOWN = 10  # violations in a report
-PARAMETERS = tuple(field.name for field in dataclasses.fields(Settings))
+UNSET = ('contact_names', 'contact_fingers')  # read-only, and perhaps not set
+REQUIRED = tuple(f.name for f in dataclasses.fields(Settings) if f.name not in UNSET)
+
+
+class ByHand(CallbackGroup):
+    """
+    Subscriptions that no executor looks at.
+
+    Thousands of messages a second, each by itself through an executor, would take a core; taken
+    together before they are judged they take an eighth of that.
+
+    """
+
+    def can_execute(self, entity: Any) -> bool:
+        """Leave everything alone."""
+        return False
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Leave everything alone."""
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """Leave everything alone."""
 
 
 class ForceAuditNode(Node):
@@ -56,9 +80,12 @@ class ForceAuditNode(Node):
                 description='how much older than max_contact_age contacts may be when forces '
                             'are sent [s]', read_only=True)).value)
         self._recent: list[str] = []
-        self._asked: Any = None
+        self._asked: dict[tuple[str, ...], Any] = {}
+        self._asked_s = 0.0
         self._settings: Settings | None = None
         self._holding = False
+        self._by_hand = ByHand()
+        self._takes: list[Callable[[], bool]] = []
         self._wrench_topics: set[str] = set()
         self._parameter_client = self.create_client(GetParameters, f'{self.target}/get_parameters')
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
@@ -76,13 +103,23 @@ class ForceAuditNode(Node):
 
     def _listen(self, kind: Any, topic: str, profile: QoSProfile,
                 read: Callable[[Any, int], object]) -> None:
-        def receive(message: Any, info: Any) -> None:
+        subscription = self.create_subscription(
+            kind, f'{self.target}/{topic}', lambda message: None, profile,
+            callback_group=self._by_hand)
+
+        def take() -> bool:
+            with subscription.handle:
+                taken = subscription.handle.take_message(kind, False)
+            if taken is None:
+                return False
             try:
-                self.records.store(read(message, info['source_timestamp']), time.monotonic())
+                self.records.store(
+                    read(taken[0], taken[1]['source_timestamp']), time.monotonic())
             except Exception as exc:
                 self.records.count.violations += 1  # what cannot be read cannot be trusted
                 self._tell(f'{topic} could not be read: {type(exc).__name__}: {exc}')
-        self.create_subscription(kind, f'{self.target}/{topic}', receive, profile)
+            return True
+        self._takes.append(take)
 
     def _read_forces(self, message: ContactForceArray, sent_ns: int) -> Forces:
         for item in message.forces:
@@ -100,6 +137,9 @@ class ForceAuditNode(Node):
 
     def _judge(self) -> None:
         self._ask()
+        for take in tuple(self._takes):  # forces may bring further topics
+            while take():
+                pass
         # the node works them out for listeners only: listen where somebody else does
         if not self._holding and self.count_subscribers(f'{self.target}/holding_forces'):
             self._holding = True
@@ -113,24 +153,30 @@ class ForceAuditNode(Node):
 
     def _ask(self) -> None:
         """Ask the node for its parameters, time and again: it may be started anew."""
-        if self._asked is not None and self._asked.done():
-            values = [parameter_value_to_python(v) for v in self._asked.result().values]
-            if len(values) == len(PARAMETERS):
-                values = [tuple(v or ()) if name in ('contact_names', 'contact_fingers') else v
-                          for name, v in zip(PARAMETERS, values)]
-                self._hold(Settings(*values))
-            self._asked = None
-        if not self._parameter_client.service_is_ready():
-            self._asked = None  # an answer of a node that is gone never comes
-        elif self._asked is None:
-            request = GetParameters.Request(names=PARAMETERS)
-            self._asked = self._parameter_client.call_async(request)
+        now_s = time.monotonic()
+        if self._asked and all(asked.done() for asked in self._asked.values()):
+            found: dict[str, Any] = {}
+            for names, asked in self._asked.items():
+                found.update(zip(names, map(parameter_value_to_python, asked.result().values)))
+            if set(REQUIRED) <= set(found):
+                self._hold(Settings(**{
+                    **found, **{name: tuple(found.get(name) or ()) for name in UNSET}}))
+            self._asked = {}
+        if self._asked and now_s > self._asked_s + ANSWER_S:
+            for asked in self._asked.values():
+                self._parameter_client.remove_pending_request(asked)
+            self._asked = {}  # an answer of a node that is gone never comes
+        if not self._asked and self._parameter_client.service_is_ready():
+            self._asked_s = now_s
+            # one that is not set takes the answers to all that were asked for with it away
+            self._asked = {names: self._parameter_client.call_async(
+                GetParameters.Request(names=names)) for names in (REQUIRED, *zip(UNSET))}
 
     def _change(self, event: ParameterEvent) -> None:
         """Note each change of parameters as it is made: many may lie between two questions."""
         if event.node == self.target and self._settings is not None:
             changes = {p.name: parameter_value_to_python(p.value)
-                       for p in event.changed_parameters if p.name in PARAMETERS}
+                       for p in event.changed_parameters if p.name in REQUIRED}
             self._hold(dataclasses.replace(self._settings, **changes))
 
     def _hold(self, settings: Settings) -> None:

@@ -9,7 +9,7 @@ pass with one combination of contacts and quality of its own stamp and parameter
 What cannot be judged because a part never came (best effort topics may lose one) is counted apart.
 """
 
-from collections import deque
+from collections import Counter, deque
 from dataclasses import dataclass, field
 import itertools
 from typing import TypeVar
@@ -21,6 +21,7 @@ from grasp_quality_hand.force_rules import (
 import numpy as np
 
 Part = TypeVar('Part')
+STAMPED = (Contacts, Forces, LocalWrench, Quality)
 
 GRACE_S = 1.0    # after which all that belongs to a message has come
 PATIENCE_S = 20.0  # for the first parameters
@@ -45,15 +46,23 @@ class ForceRecords:
         self._allowance_s = allowance_s
         self._patience_s = np.inf
         self._kept: dict[type, deque[tuple[float, object]]] = {}
+        self._stamped: dict[tuple[type, int], list[object]] = {}  # the same by kind and stamp
+        self._alphas: Counter[float] = Counter()  # of the OPTIMAL qualities among them
         self._waiting: deque[tuple[float, object]] = deque()
         self.count = Count()
 
     def store(self, part: object, now_s: float) -> None:
         """Keep a part (a class of audit_parts, or a float for alpha) with its arrival time."""
-        kept = self._kept.setdefault(type(part), deque(maxlen=MOST))
+        kept = self._kept.setdefault(type(part), deque())
         if isinstance(part, Settings) and kept and kept[-1][1] == part:
             kept.pop()
         kept.append((now_s, part))
+        if isinstance(part, STAMPED):
+            self._stamped.setdefault((type(part), part.stamp), []).append(part)
+        if isinstance(part, Quality) and part.optimal:
+            self._alphas[part.alpha] += 1
+        if len(kept) > MOST:
+            self._forget(kept)
         self._patience_s = min(self._patience_s, now_s + PATIENCE_S)
         if isinstance(part, (Forces, Quality, LocalWrench, float)):
             self._waiting.append((now_s, part))
@@ -68,9 +77,19 @@ class ForceRecords:
             said += self._judge(arrived_s, part)
         for kept in self._kept.values():
             while len(kept) > 1 and kept[0][0] < now_s - MEMORY_S:  # the newest holds on
-                kept.popleft()
+                self._forget(kept)
         self.count.violations += len(said)
         return said
+
+    def _forget(self, kept: deque[tuple[float, object]]) -> None:
+        _, part = kept.popleft()
+        if isinstance(part, STAMPED):
+            same = self._stamped[type(part), part.stamp]
+            del same[0]  # the oldest of them came first
+            if not same:
+                del self._stamped[type(part), part.stamp]
+        if isinstance(part, Quality) and part.optimal:
+            self._alphas -= Counter([part.alpha])
 
     def _judge(self, arrived_s: float, part: object) -> list[str]:
         if isinstance(part, Quality):
@@ -80,7 +99,7 @@ class ForceRecords:
             if not part.optimal and any(numbers):
                 return [f'quality is not OPTIMAL and yet holds {numbers}']
         elif isinstance(part, float):
-            if part in (0.0, *(q.alpha for q in self._parts(Quality) if q.optimal)):
+            if part == 0.0 or part in self._alphas:
                 return []
             if not any(since_s <= arrived_s for since_s, _ in self._kept.get(Quality, ())):
                 return self._leave('quality')  # not listening to it yet
@@ -94,6 +113,9 @@ class ForceRecords:
     def _parts(self, kind: type[Part]) -> list[Part]:
         return [part for _, part in self._kept.get(kind, ()) if isinstance(part, kind)]
 
+    def _of_stamp(self, kind: type[Part], stamp: int) -> list[Part]:
+        return [p for p in self._stamped.get((kind, stamp), ()) if isinstance(p, kind)]
+
     def _settings(self, arrived_s: float) -> list[Settings]:
         """Return those in force at some time from two grace times before to one after."""
         ends = [since_s for since_s, _ in self._kept.get(Settings, ())][1:] + [np.inf]
@@ -103,9 +125,9 @@ class ForceRecords:
     def _judge_forces(self, arrived_s: float, part: Forces) -> list[str]:
         settings = self._settings(arrived_s)
         contacts = list({  # a frozen sensor says the same again and again
-            c.content: c for c in self._parts(Contacts) if c.stamp == part.stamp}.values())
+            c.content: c for c in self._of_stamp(Contacts, part.stamp)}.values())
         qualities = list({
-            q.content: q for q in self._parts(Quality) if q.stamp == part.stamp}.values())
+            q.content: q for q in self._of_stamp(Quality, part.stamp)}.values())
         in_frame = [c for c in contacts if c.frame in ('', part.frame)]
         if not all(np.isfinite(force.wrench).all() for force in part.forces):
             return [f'forces of stamp {part.stamp} are not finite']
@@ -133,9 +155,8 @@ class ForceRecords:
         return []
 
     def _judge_local(self, arrived_s: float, part: LocalWrench) -> list[str]:
-        sets = [forces for forces in self._parts(Forces)
-                if forces.stamp == part.stamp and not forces.are_holding]
-        contacts = [c for c in self._parts(Contacts) if c.stamp == part.stamp]
+        sets = [forces for forces in self._of_stamp(Forces, part.stamp) if not forces.are_holding]
+        contacts = self._of_stamp(Contacts, part.stamp)
         settings = self._settings(arrived_s)
         for name, found in (('forces', sets), ('contacts', contacts), ('parameters', settings)):
             if not found:

@@ -59,3 +59,4 @@ def begun_nodes(tmp_path_factory):
         for words in {'internal error', 'Traceback'} - node.expected:
             assert words not in node.process.log()
         assert node.audit.end() == 0, node.audit.log()
+        assert 'without parameters' not in node.audit.log()

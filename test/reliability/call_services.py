@@ -39,12 +39,13 @@ QUESTIONS = {  # every third client brings contacts of its own, the others ask a
 class Caller:
     """One client; ``look`` asks and listens."""
 
-    def __init__(self, node, target, question, patience_s):
+    def __init__(self, node, target, question, patience_s, pause_s):
         kind, name, fields = question
         self._client = node.create_client(
             kind, f'{target}/{name}', qos_profile=qos.questions())
         self._request = kind.Request(**fields)
         self._patience_s = patience_s
+        self._pause_s = pause_s
         self._under_way = None
         self._asked_at = 0.0
         self.asked = self.lost = 0
@@ -65,7 +66,8 @@ class Caller:
             self._client.remove_pending_request(self._under_way)
             self._under_way, self.lost, self.last_lost = None, self.lost + 1, True
             return 'lost'
-        if self._under_way is None and ask_on and self._client.service_is_ready():
+        if self._under_way is None and ask_on and now >= self._asked_at + self._pause_s \
+                and self._client.service_is_ready():
             self._under_way, self._asked_at = self._client.call_async(self._request), now
             self.asked += 1
             return 'asked'
@@ -84,6 +86,7 @@ def main() -> int:
     parser.add_argument('--clients', type=int, default=1)
     parser.add_argument('--number', type=int, default=0, help='of the first client')
     parser.add_argument('--questions', choices=QUESTIONS, default='short')
+    parser.add_argument('--pause', type=float, default=0.0, help='from one to the next [s]')
     parser.add_argument('--patience', type=float, default=20.0, help='[s]')
     asked = parser.parse_args()
     stopping: list[int] = []
@@ -97,7 +100,7 @@ def main() -> int:
         node = rclpy.create_node(f'caller_{number}', start_parameter_services=False)
         executor.add_node(node)
         callers.append(Caller(
-            node, asked.target, questions[number % len(questions)], asked.patience))
+            node, asked.target, questions[number % len(questions)], asked.patience, asked.pause))
     said: set[str] = set()
     while not stopping or any(caller.is_waiting for caller in callers):
         for caller in callers:
