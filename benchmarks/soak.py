@@ -27,7 +27,8 @@ from rig import start_feed, TASK
 NAMESPACE = '/soak'
 RATE_HZ = 200.0
 MAX_AGE_S = 0.1
-SETTLED_S = 60.0     # memory is compared with what it was then
+SETTLED_S = 60.0     # memory is compared with what it was then, or after each fault has been
+MEASURED_S = 30.0    # at least, from then on
 MOST_GROWTH_MB = 1.0
 CALM_S = 1.0         # after a fault, before delays count
 EVERY_S = 6.0        # from the end of a fault to the next
@@ -48,6 +49,7 @@ class Soak:
         self.callers = [self.new_callers(), self.new_callers()]
         self.begin = time.monotonic()
         self.resident = []  # (s, MB)
+        self.settled = None  # [s]
         self.lost = 0       # datagrams, outside of faults
 
     def log(self, what):
@@ -94,12 +96,11 @@ class Soak:
         return begin_ns, time.time_ns()
 
 
-def growth(resident):
-    """Return the memory after the first minute and at the end, medians over five seconds [MB]."""
-    times, sizes = np.array(resident).T
-    settled = min(SETTLED_S, times[-1] - 5.0)
-    return (float(np.median(sizes[(times >= settled) & (times <= settled + 5.0)])),
-            float(np.median(sizes[times >= times[-1] - 5.0])))
+def memory(soak):
+    """Return it when it was settled, then after every minute, at the end: medians of 5 s [MB]."""
+    times, sizes = np.array(soak.resident).T
+    ends = [*np.arange(soak.settled, times[-1] - 30.0, 60.0), times[-1]]
+    return [float(np.median(sizes[(times > end - 5.0) & (times <= end)])) for end in ends]
 
 
 def run(seconds, seed, allowance_s):
@@ -107,9 +108,11 @@ def run(seconds, seed, allowance_s):
     soak = Soak(allowance_s)
     faults = Faults(soak, seed, may_restart=lambda: soak.elapsed() < 0.5 * SETTLED_S)
     windows = [soak.calm(5.0)]
-    while soak.elapsed() < seconds - EVERY_S:
+    while soak.settled is None or soak.elapsed() < max(seconds, soak.settled + MEASURED_S):
         faults.one()
         windows.append(soak.calm(EVERY_S))
+        if soak.settled is None and soak.elapsed() > SETTLED_S and faults.each_has_been:
+            soak.settled = soak.elapsed()
     soak.feed.end()
     soak.watch(3 * MAX_AGE_S)
     return soak, faults, windows
@@ -126,13 +129,13 @@ def main():
     asked = parser.parse_args()
     machine = document.machine()
     soak, faults, windows = run(asked.seconds, asked.seed, asked.age_allowance)
-    settled_mb, end_mb = growth(soak.resident)
+    resident = memory(soak)
+    grown = resident[-1] - resident[0]
     counts = [process.counts() for process in soak.callers]
     soak.witness.client.close()
     node_log, codes = soak.node.log(), [soak.node.end(), soak.audit.end()]
     broken = [*soak.witness.broken, *faults.broken]
-    broken += [f'memory grew by {end_mb - settled_mb:.2f} MB'] * (
-        end_mb - settled_mb >= MOST_GROWTH_MB)
+    broken += [f'memory grew by {grown:.2f} MB'] * (grown >= MOST_GROWTH_MB)
     broken += [f'{c["answered"]} answers and {c["lost"]} given up of {c["asked"]} questions'
                for c in counts if c['answered'] + c['lost'] != c['asked'] or not c['fewest']]
     broken += ['the audit judged nothing'] * soak.audit.log().splitlines()[-1].startswith('0 ')
@@ -143,8 +146,8 @@ def main():
     print(document.table(['', ''], [
         *rows(soak, windows),
         ('faults', ', '.join(f'{n} x {name}' for name, n in sorted(faults.done.items()))),
-        ('memory of the node after the first minute, at the end [MB]',
-         f'{settled_mb:.2f}, {end_mb:.2f}'),
+        (f'memory of the node after {soak.settled:.0f} s, each minute, at the end [MB]',
+         ', '.join(f'{size:.2f}' for size in resident)),
         ('audit', soak.audit.log().splitlines()[-1])]))
     for text in broken[:20]:
         print(f'BROKEN: {text}')

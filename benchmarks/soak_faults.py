@@ -31,6 +31,10 @@ USUAL = {'friction_coefficient': 0.5, 'max_normal_force': 10.0, 'force_bound': '
          'contact_model': 'PCWF', 'solver_time_limit': 1.0, 'alpha_reserve': 0.0}
 
 
+def _name(fault):
+    return fault.__name__.replace('_', ' ')
+
+
 class Faults:
     """Draws faults from a seed; ``done`` counts them, ``broken`` holds what went wrong."""
 
@@ -52,7 +56,7 @@ class Faults:
             if self._may_restart():
                 self._left.append(self.node_killed)  # first
         fault = self._left.pop()
-        self.done[fault.__name__.replace('_', ' ')] += 1
+        self.done[_name(fault)] += 1
         fault()
         witness, after_ns = self._soak.witness, time.time_ns()
         try:
@@ -60,6 +64,11 @@ class Faults:
                 lambda: witness.answers and witness.answers[-1][0] > after_ns, 'an answer')
         except AssertionError:
             self.broken.append(f'no answer after {fault.__name__}')
+
+    @property
+    def each_has_been(self):
+        """Whether every kind of fault has been, so that nothing is new to the node any more."""
+        return all(self.done[_name(kind)] for kind in self._kinds)
 
     def _seconds(self, least, most):
         return float(self._draw.uniform(least, most))

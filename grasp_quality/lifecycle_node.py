@@ -9,6 +9,7 @@ message; those of contacts, task and load then evaluate once. Runs in a single-t
 """
 
 import functools
+import gc
 import os
 
 from geometry_msgs.msg import PoseArray, WrenchStamped
@@ -149,6 +150,9 @@ class GraspQualityNode(LifecycleNode):
     def on_configure(self, state):
         """Warm up: the first query after activation shall be as fast as the thousandth."""
         warm_up(self.settings.force_bound)
+        # what is there now stays: to look through it again would stop the live loop for 0.1 s
+        gc.collect()
+        gc.freeze()
         return super().on_configure(state)
 
     def on_activate(self, state):
