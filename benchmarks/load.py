@@ -47,7 +47,7 @@ def main():
     begin_ns, begin = time.time_ns(), time.monotonic()
     lost, resident = dropped(node.popen.pid), []
     while time.monotonic() < begin + seconds:
-        witness.client.spin_once(0.1)
+        witness.watch(0.2)
         if time.monotonic() > begin + len(resident):
             resident.append(resident_mb(node.popen.pid))
     windows = [(begin_ns, time.time_ns())]
@@ -55,7 +55,7 @@ def main():
     feed.end()
     counts = [process.counts() for process in callers]
     ended_ns = time.time_ns()
-    witness.client.until(
+    witness.until(
         lambda: any(code == ResultCode.STALE_CONTACTS and sent_ns > ended_ns
                     for code, sent_ns in witness.failures), 'STALE_CONTACTS')
     backlog = {stamp for stamp, sent_ns in witness.answers if sent_ns > ended_ns}
@@ -69,7 +69,7 @@ def main():
                 if c['lost'] or c['answered'] != c['asked'])]
     broken += [f'{len(backlog)} samples were answered after contacts had ended'] * bool(backlog)
     broken += [f'exit codes of node and audit: {codes}'] * any(codes)
-    quarter = max(1, len(resident) // 4)
+    quarter = len(resident) // 4
     print(f'{CONTACTS} contacts at {RATE_HZ} Hz and {CLIENTS} client processes for {seconds:g} s; '
           f'{machine}\n')
     print(document.table(['', ''], [

@@ -82,8 +82,8 @@ class Soak:
     def watch(self, seconds):
         """Listen for a while."""
         end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            self.witness.client.spin_once(0.05)
+        while (left := end - time.monotonic()) > 0.0:
+            self.witness.watch(min(left, 0.2))
             if self.elapsed() > len(self.resident):
                 self.resident.append((self.elapsed(), resident_mb(self.node.popen.pid)))
 

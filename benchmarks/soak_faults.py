@@ -60,7 +60,7 @@ class Faults:
         fault()
         witness, after_ns = self._soak.witness, time.time_ns()
         try:
-            witness.client.until(
+            witness.until(
                 lambda: witness.answers and witness.answers[-1][0] > after_ns, 'an answer')
         except AssertionError:
             self.broken.append(f'no answer after {fault.__name__}')
@@ -150,7 +150,7 @@ class Faults:
         """Stop the node for longer than contacts are fresh, while they go on."""
         soak = self._soak
         soak.feed.popen.send_signal(signal.SIGSTOP)
-        soak.witness.client.until(
+        soak.witness.until(
             lambda: soak.witness.newest_is_answered() or self._failed_lately(),
             'the newest sample to be answered')
         soak.node.popen.send_signal(signal.SIGSTOP)

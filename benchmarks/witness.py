@@ -11,7 +11,9 @@ only place to lose it is a full socket buffer, and Linux counts that for every s
 from contextlib import suppress
 import os
 from pathlib import Path
+import struct
 import sys
+import time
 
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test' / 'node'), str(ROOT / 'test' / 'reliability')]
@@ -19,6 +21,7 @@ os.environ.update({
     'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'})
 
 from geometry_msgs.msg import PoseArray  # noqa: E402
+from grasp_quality_hand.force_audit_node import ByHand  # noqa: E402
 from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode  # noqa: E402
 from harness import Client  # noqa: E402
 from msg_adapters.stamps import stamp_ns  # noqa: E402
@@ -48,20 +51,42 @@ class Witness:
         self.samples = {}
         self.answers, self.failures, self.broken = [], [], []
         self._oldest_s = max_age_s + allowance_s
-        target, node = self.client.target, self.client.node
-        for kind, topic, receive, profile in (
-                (PoseArray, 'contact_poses', self._sample, SENSOR),
-                (GraspQuality, 'quality', self._quality, DEEP),
-                (ContactForceArray, 'contact_forces', self._forces, DEEP)):
-            node.create_subscription(
-                kind, f'{target}/{topic}',
-                lambda message, info, receive=receive: receive(
-                    message, stamp_ns(message.header.stamp), info['source_timestamp']), profile)
+        target, node, by_hand = self.client.target, self.client.node, ByHand()
+        self._subscriptions = [(node.create_subscription(
+            kind, f'{target}/{topic}', lambda message: None, profile, raw=raw,
+            callback_group=by_hand), receive) for kind, topic, receive, profile, raw in (
+                (PoseArray, 'contact_poses', self._sample, SENSOR, True),
+                (GraspQuality, 'quality', self._quality, DEEP, False),
+                (ContactForceArray, 'contact_forces', self._forces, DEEP, False))]
 
-    def _sample(self, message, stamp, sent_ns):
-        self.samples.setdefault(stamp, sent_ns)
+    def take(self):
+        """Take in what has come."""
+        for subscription, receive in self._subscriptions:
+            with subscription.handle:
+                while taken := subscription.handle.take_message(
+                        subscription.msg_type, subscription.raw):
+                    receive(taken[0], taken[1]['source_timestamp'])
 
-    def _quality(self, message, stamp, sent_ns):
+    def watch(self, seconds):
+        """Take in what comes for a while."""
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0.0:
+            self.client.spin_once(min(left, 0.02))
+            self.take()
+
+    def until(self, condition, what):
+        """Take in what comes until a condition holds."""
+        def holds():
+            self.take()
+            return condition()
+        self.client.until(holds, what)
+
+    def _sample(self, data, sent_ns):
+        sec, nanosec = struct.unpack_from('<iI', data, 4)  # behind the head of CDR: the stamp
+        self.samples.setdefault(10 ** 9 * sec + nanosec, sent_ns)
+
+    def _quality(self, message, sent_ns):
+        stamp = stamp_ns(message.header.stamp)
         if message.result.code != ResultCode.OPTIMAL:
             self.failures.append((message.result.code, sent_ns))
             if message.alpha or message.alpha_upper or not message.result.message:
@@ -71,8 +96,8 @@ class Witness:
             self.broken.append(f'an answer went back by {self.answers[-1][0] - stamp} ns')
         self.answers.append((stamp, sent_ns))
 
-    def _forces(self, message, stamp, sent_ns):
-        age_s = (sent_ns - stamp) * 1e-9
+    def _forces(self, message, sent_ns):
+        age_s = (sent_ns - stamp_ns(message.header.stamp)) * 1e-9
         if message.forces and age_s > self._oldest_s:
             self.broken.append(f'forces were published {age_s:.3f} s after their contacts')
 

@@ -46,7 +46,7 @@ class LiveLoop:
         try:
             scene = self._inputs.scene()
             quality, answer, load = self._answer(scene)
-            self._outputs.publish(quality, scene.grasp, *answer)
+            self._outputs.publish(quality, scene.grasp, *answer, check=self._inputs.age_s)
             self._follower.published(scene.grasp, answer[0])
             if quality.result.code == ResultCode.OPTIMAL:
                 left = self._settings().max_contact_age - self._inputs.age_s()

@@ -33,7 +33,7 @@ class Outputs:
         self.margin = self._publisher(GraspMargin, '~/margin')
         self._wrenches = {}  # contact name: publisher, or None where the name makes no topic
 
-    def publish(self, quality, grasp=None, forces=(), cone_usage=()):
+    def publish(self, quality, grasp=None, forces=(), cone_usage=(), check=lambda: None):
         """
         Publish an answer.
 
@@ -47,14 +47,20 @@ class Outputs:
             [t1, t2, n, m_n] in the contact frames, finger on object.
         cone_usage : (k,) array
             Share of each friction cone in use.
+        check : callable
+            Raises when the answer must not be published any more; asked when the forces are a
+            message already, so that nothing is left between it and the writing.
 
         """
         optimal = quality.result.code == ResultCode.OPTIMAL
         if not optimal:
             grasp, forces, cone_usage = None, (), ()
         # nothing is latched, so that building a message for nobody would only cost time
-        if self._forces.get_subscription_count():
-            self._forces.publish(force_array(quality.header, grasp, forces, cone_usage))
+        message = force_array(quality.header, grasp, forces, cone_usage) \
+            if self._forces.get_subscription_count() else None
+        check()
+        if message is not None:
+            self._forces.publish(message)
         if self._quality.get_subscription_count():
             self._quality.publish(quality)
         if self._alpha.get_subscription_count():

@@ -101,8 +101,9 @@ class ForceRecords:
         elif isinstance(part, float):
             if part == 0.0 or part in self._alphas:
                 return []
-            if not any(since_s <= arrived_s for since_s, _ in self._kept.get(Quality, ())):
-                return self._leave('quality')  # not listening to it yet
+            if not any(abs(since_s - arrived_s) <= GRACE_S
+                       for since_s, _ in self._kept.get(Quality, ())):
+                return self._leave('quality')  # not listening to it yet, or lost
             return [f'alpha {part:.9g} stands in no OPTIMAL quality']
         elif isinstance(part, Forces):
             return self._judge_forces(arrived_s, part) if part.forces else []
