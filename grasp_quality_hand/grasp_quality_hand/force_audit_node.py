@@ -38,7 +38,7 @@ INPUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
 OUTPUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
 JUDGE_PERIOD_S = 0.2
 REPORT_PERIOD_S = 1.0
-ANSWER_S = 1.0  # after which an answer about parameters will not come
+ANSWER_S = 5.0  # after which an answer about parameters will not come
 PLAIN_NAME = re.compile('[A-Za-z_][A-Za-z0-9_]*')  # others make no topic
 SHOWN = 10  # violations in a report
 UNSET = ('contact_names', 'contact_fingers')  # read-only, and perhaps not set
@@ -81,7 +81,7 @@ class ForceAuditNode(Node):
                             'are sent [s]', read_only=True)).value)
         self._recent: list[str] = []
         self._asked: dict[tuple[str, ...], Any] = {}
-        self._asked_s = 0.0
+        self._asked_s = self._changed_s = 0.0
         self._settings: Settings | None = None
         self._holding = False
         self._by_hand = ByHand()
@@ -89,6 +89,7 @@ class ForceAuditNode(Node):
         self._wrench_topics: set[str] = set()
         self._parameter_client = self.create_client(GetParameters, f'{self.target}/get_parameters')
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._take_from(ParameterEvent, '/parameter_events', OUTPUT, self._change)
         for kind, topic, profile, read in (
                 (PoseArray, 'contact_poses', INPUT, audit_messages.read_poses),
                 (ContactArray, 'contacts', INPUT, audit_messages.read_contacts),
@@ -96,29 +97,31 @@ class ForceAuditNode(Node):
                 (ContactForceArray, 'contact_forces', OUTPUT, self._read_forces),
                 (Float64, 'alpha', OUTPUT, audit_messages.read_alpha)):
             self._listen(kind, topic, profile, read)
-        self.create_subscription(ParameterEvent, '/parameter_events', self._change, OUTPUT)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(JUDGE_PERIOD_S, self._judge, clock=steady)
         self.create_timer(REPORT_PERIOD_S, self._report, clock=steady)
 
     def _listen(self, kind: Any, topic: str, profile: QoSProfile,
                 read: Callable[[Any, int], object]) -> None:
+        def store(message: Any, sent_ns: int) -> None:
+            try:
+                self.records.store(read(message, sent_ns), time.monotonic())
+            except Exception as exc:
+                self.records.count.violations += 1  # what cannot be read cannot be trusted
+                self._tell(f'{topic} could not be read: {type(exc).__name__}: {exc}')
+        self._take_from(kind, f'{self.target}/{topic}', profile, store)
+
+    def _take_from(self, kind: Any, topic: str, profile: QoSProfile,
+                   receive: Callable[[Any, int], object]) -> None:
         subscription = self.create_subscription(
-            kind, f'{self.target}/{topic}', lambda message: None, profile,
-            callback_group=self._by_hand)
+            kind, topic, lambda message: None, profile, callback_group=self._by_hand)
 
         def take() -> bool:
             with subscription.handle:
                 taken = subscription.handle.take_message(kind, False)
-            if taken is None:
-                return False
-            try:
-                self.records.store(
-                    read(taken[0], taken[1]['source_timestamp']), time.monotonic())
-            except Exception as exc:
-                self.records.count.violations += 1  # what cannot be read cannot be trusted
-                self._tell(f'{topic} could not be read: {type(exc).__name__}: {exc}')
-            return True
+            if taken is not None:
+                receive(taken[0], taken[1]['source_timestamp'])
+            return taken is not None
         self._takes.append(take)
 
     def _read_forces(self, message: ContactForceArray, sent_ns: int) -> Forces:
@@ -137,7 +140,7 @@ class ForceAuditNode(Node):
 
     def _judge(self) -> None:
         self._ask()
-        for take in tuple(self._takes):  # forces may bring further topics
+        for take in (*self._takes, self._takes[0]):  # changes of parameters before and after
             while take():
                 pass
         # the node works them out for listeners only: listen where somebody else does
@@ -158,7 +161,8 @@ class ForceAuditNode(Node):
             found: dict[str, Any] = {}
             for names, asked in self._asked.items():
                 found.update(zip(names, map(parameter_value_to_python, asked.result().values)))
-            if set(REQUIRED) <= set(found):
+            # what was changed meanwhile is newer than the answer
+            if set(REQUIRED) <= set(found) and self._changed_s < self._asked_s:
                 self._hold(Settings(**{
                     **found, **{name: tuple(found.get(name) or ()) for name in UNSET}}))
             self._asked = {}
@@ -172,8 +176,10 @@ class ForceAuditNode(Node):
             self._asked = {names: self._parameter_client.call_async(
                 GetParameters.Request(names=names)) for names in (REQUIRED, *zip(UNSET))}
 
-    def _change(self, event: ParameterEvent) -> None:
+    def _change(self, event: ParameterEvent, sent_ns: int) -> None:
         """Note each change of parameters as it is made: many may lie between two questions."""
+        if event.node == self.target:
+            self._changed_s = time.monotonic()
         if event.node == self.target and self._settings is not None:
             changes = {p.name: parameter_value_to_python(p.value)
                        for p in event.changed_parameters if p.name in REQUIRED}
