@@ -19,7 +19,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-DEADLINE = 20.0              # for anything that is waited for [s]
+DEADLINE = 60.0              # for anything that is waited for [s]
 TARGET = '/a_hand/grasp_quality'
 WRENCHES = [f'{TARGET}/contact_wrenches/{finger}' for finger in FINGERS]
 CONTACT_TOPICS = {f'{TARGET}/contact_poses': PoseArray, f'{TARGET}/contacts': ContactArray,

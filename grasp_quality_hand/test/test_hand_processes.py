@@ -11,6 +11,7 @@ from grasp_quality_hand import demo_processes
 from grasp_quality_hand.demo_processes import ChildProcess, claim_domain, DemoFailure
 import pytest
 
+DEADLINE_S = 120.0
 SLEEP = 'import time; print("ready", flush=True); time.sleep(60)'
 HEED = 'import signal; signal.signal(signal.SIGINT, signal.default_int_handler); '
 
@@ -30,8 +31,9 @@ def child(tmp_path):
     def start(code):
         log = tmp_path / 'log'
         children.append(ChildProcess('the sleeper', [sys.executable, '-c', code], log))
-        end = time.monotonic() + 20.0
-        while not log.read_text() and time.monotonic() < end:
+        end = time.monotonic() + DEADLINE_S
+        while not log.read_text():
+            assert time.monotonic() < end, f'nothing was printed within {DEADLINE_S} s'
             time.sleep(0.01)
         return children[-1]
 

@@ -24,7 +24,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-DEADLINE_S = 20.0
+DEADLINE_S = 60.0
 START_S = 120.0  # the first start after a change compiles the solver
 FEED_PERIOD_S = 0.01
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
