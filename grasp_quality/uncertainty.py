@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from grasp_quality.arrays import LARGEST
+from grasp_quality.contact import FARTHEST
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp
 from grasp_quality.grasp_set import GraspSet
@@ -112,7 +113,7 @@ def draw(grasp: Grasp, load: Array, noise: Uncertainty, samples: int,
     iterator of (GraspSet of n grasps, external wrenches (n, 6) [N, N m])
 
     """
-    refuse_limits(grasp.joint_limits, 'an uncertain grasp')
+    refuse_limits(grasp.joint_limits, 'uncertainty')
     k = len(grasp)
     generator = np.random.default_rng(seed)
     for begin in range(0, samples, AT_ONCE):
@@ -129,7 +130,8 @@ def _varied(grasp: Grasp, noise: Uncertainty, draws: Array) -> GraspSet:
     relative = np.divide(friction, mean.friction, where=mean.friction > 0.0,
                          out=np.ones(friction.shape))
     return GraspSet.of_arrays(
-        mean.positions + draws[:, :, :3] * position[:, None],
+        # no contact is drawn beyond where contacts may be
+        np.clip(mean.positions + draws[:, :, :3] * position[:, None], -FARTHEST, FARTHEST),
         rotations=mean.rotations @ tilted(draws[:, :, 3:5] * normal[:, None]),
         model=mean.models, friction=friction,
         torsional_friction=relative * mean.torsional_friction,

@@ -80,7 +80,7 @@ class Desk:
         """Return a logger."""
         return Silent()
 
-    def create_service(self, kind: Any, name: str, handler: Any, callback_group: Any) -> None:
+    def create_service(self, kind: Any, name: str, handler: Any, **_: Any) -> None:
         """Keep a handler."""
         self.handlers[name.removeprefix('~/')] = handler
 

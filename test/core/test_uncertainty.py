@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws from a noise: the deviations asked for, frames that stay frames, refusals."""
 
-from grasp_quality import InvalidTaskError
+from grasp_quality import Contact, Grasp, InvalidTaskError
 from grasp_quality.uncertainty import AT_ONCE, draw, tilted, Uncertainty
 from known_grasps import antipodal, FZ, three_finger
 import numpy as np
@@ -72,6 +72,12 @@ def test_more_samples_begin_with_the_fewer_and_sizes_share_their_draws():
     double = variants(grasp, 10, seed=3, position=0.2, friction=0.1)['positions']
     assert double - grasp.positions == pytest.approx(2.0 * (few - grasp.positions), abs=EXACT)
     assert (variants(grasp, 10, seed=4, position=0.1)['positions'] != few).all()
+
+
+def test_no_contact_is_drawn_beyond_where_contacts_may_be():
+    grasp = Grasp([Contact((1e3, 0.0, 0.0), normal=(-1.0, 0.0, 0.0))])
+    drawn = variants(grasp, 200, position=0.1)['positions'][:, 0]
+    assert drawn[:, 0].max() == 1e3 and drawn[:, 0].min() < 1e3 and drawn[:, 1].std() > 0.05
 
 
 def test_caps_and_bound_stay():

@@ -102,7 +102,7 @@ def test_a_barrier_weight_buys_margin_with_alpha(client, alpha, restored):
     ({'contact_model': 'rubber'}, "contact_model must be one of ['FPC', 'PCWF', 'SFCE']"),
     ({'task_wrench': [0.0] * 6}, 'task wrench must not be zero'),
     ({'task_wrench': [1.0] * 5}, 'task wrench must have shape (6)'),
-    ({'task_wrench': [math.nan] * 6}, 'task wrench must be finite'),
+    ({'task_wrench': [math.nan] * 6}, 'task_wrench must be finite'),
     ({'max_request_size': 0}, 'out of range'),
     ({'contact_names': ['a']}, 'read-only'), ({'contact_fingers': ['a']}, 'read-only'),
     ({'contact_source': 'contact_array'}, 'read-only'), ({'autostart': False}, 'read-only')])
