@@ -4,9 +4,10 @@
 Long runs with faults: ``make soak``, or ``python -m benchmarks.soak --seconds 120``.
 
 8 contacts at 200 Hz, two client processes and an auditor, and every few seconds a fault drawn at
-random from a seed (``soak_faults``); with ``--calm`` no faults. Prints what was answered, lost and remembered, and ends with
-code 1 when a promise of docs/reliability.md is broken. What is promised does not depend on the
-speed of the machine; delays are counted in calm times only, a second away from all faults.
+random from a seed (``soak_faults``); with ``--calm`` no faults. Prints what was answered, lost and
+remembered, and ends with code 1 when a promise of docs/reliability.md is broken. What is promised
+does not depend on the speed of the machine; delays are counted in calm times only, a second away
+from all faults.
 
 Memory may grow by less than 1 MB from the first minute on when calm. Faults bring some fifty new
 processes, each of which the middleware remembers for a while: there it is the second half of the
@@ -118,7 +119,7 @@ def run(seconds, seed, allowance_s, is_calm):
             faults.one()
         windows.append(soak.calm(EVERY_S))
         if soak.settled is None and soak.elapsed() > SETTLED_S and (
-                is_calm or faults.each_has_been and soak.elapsed() > 0.5 * seconds):
+                is_calm or (faults.each_has_been and soak.elapsed() > 0.5 * seconds)):
             soak.settled = soak.elapsed()
     soak.feed.end()
     soak.watch(3 * MAX_AGE_S)
