@@ -4,8 +4,9 @@
 Clients of the services as a process of its own, so that it can be killed: see ``--help``.
 
 Every client has one question under way, and asks the next when it is answered or given up. Says
-'lost' for the first one given up and 'recovered' when the next is answered; at the end a line of
-JSON with the questions asked, answered and given up, the result codes and the round trips [ms].
+'each answered' when every client has had an answer, 'lost' for the first one given up and
+'recovered' when the next is answered; at the end a line of JSON with the questions asked, answered
+and given up, the result codes and the round trips [ms].
 """
 
 import argparse
@@ -108,6 +109,9 @@ def main() -> int:
             if event and event not in said:
                 print(event, flush=True)
                 said.add(event)
+        if 'each answered' not in said and all(caller.took_ms for caller in callers):
+            print('each answered', flush=True)
+            said.add('each answered')
         executor.spin_once(timeout_sec=0.01)
     took_ms = np.concatenate([caller.took_ms for caller in callers])
     print(json.dumps({

@@ -18,7 +18,7 @@ class Callers(Process):
         return json.loads(self.log().splitlines()[-1])
 
 
-def start_callers(log, namespace, *options, says='answered'):
+def start_callers(log, namespace, *options, says='each answered'):
     """Start a process of clients, and wait for a word of it."""
     callers = Callers([sys.executable, HERE / 'call_services.py', f'{namespace}/grasp_quality',
                        *options], log)
