@@ -212,7 +212,9 @@ def _inside(request: Any, response: Any) -> list[str]:
     wrench, axis = six(response.optimal_wrench), six(request.axis)
     sides = np.stack([six(request.lateral_x), six(request.lateral_y)], axis=1)
     rest = wrench - response.alpha * axis
-    along, *_ = np.linalg.lstsq(sides, rest, rcond=None)
+    lengths = np.linalg.norm(sides, axis=0)
+    lengths[lengths == 0.0] = 1.0  # laterals of one length: the shorter would be dropped as rounding
+    along = np.linalg.lstsq(sides / lengths, rest, rcond=None)[0] / lengths
     size = max(np.abs(wrench).max(), response.alpha * np.abs(axis).max())
     if np.abs(sides @ along - rest).max() > GAP * size:
         return ['optimal_wrench is not made of axis and laterals']
