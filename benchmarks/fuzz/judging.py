@@ -213,7 +213,7 @@ def _inside(request: Any, response: Any) -> list[str]:
     sides = np.stack([six(request.lateral_x), six(request.lateral_y)], axis=1)
     rest = wrench - response.alpha * axis
     lengths = np.linalg.norm(sides, axis=0)
-    lengths[lengths == 0.0] = 1.0  # laterals of one length: the shorter would be dropped as rounding
+    lengths[lengths == 0.0] = 1.0  # laterals of one length: rounding would drop the shorter
     along = np.linalg.lstsq(sides / lengths, rest, rcond=None)[0] / lengths
     size = max(np.abs(wrench).max(), response.alpha * np.abs(axis).max())
     if np.abs(sides @ along - rest).max() > GAP * size:
