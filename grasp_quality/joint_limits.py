@@ -16,7 +16,7 @@ from functools import cached_property
 from grasp_quality.arrays import checked, frozen, SMALLEST
 from grasp_quality.exceptions import InvalidGraspError
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 SLIGHT = 1e-6   # excess over a limit that counts as a solver's inaccuracy
@@ -72,6 +72,28 @@ class JointLimits:
         for field, value in (('names', names), ('max_torques', limits),
                              ('torque_matrix', matrix), ('gravity_torques', gravity)):
             object.__setattr__(self, field, value)
+
+    @staticmethod
+    def of_jacobians(names: Sequence[str], max_torques: ArrayLike, jacobians: Array,
+                     rotations: Array, gravity_torques: ArrayLike | None = None) -> 'JointLimits':
+        """
+        Make limits from Jacobians, in whatever axes they stand.
+
+        Parameters
+        ----------
+        names, max_torques, gravity_torques
+            As above.
+        jacobians : (j, k, 6) array [m/rad, rad/rad]
+            Twist [v, omega] of each contact point for a unit of each joint's velocity.
+        rotations : (k, 3, 3) array
+            Contact frames, in the axes of the twists.
+
+        """
+        matrix = np.empty((*np.shape(jacobians)[:2], 4))
+        matrix[..., :3] = np.einsum('jkx,kxt->jkt', jacobians[..., :3], rotations)
+        matrix[..., 3] = np.einsum('jkx,kx->jk', jacobians[..., 3:], rotations[..., 2])
+        return JointLimits(
+            tuple(names), max_torques, matrix, gravity_torques)  # type: ignore[arg-type]
 
     def __len__(self) -> int:
         """Count the joints."""

@@ -46,7 +46,7 @@ def joint_limits_from(message: Any, contacts: ContactSet, transform: Transform |
         raise InvalidMessageError(
             f'joint_limits must hold at most {max_size} twists (parameter max_request_size), got '
             f'{len(items)} joints of {count} contacts')
-    matrix = np.zeros((len(items), count, 4))
+    jacobians = np.zeros((len(items), count, 6))
     axes = contacts.rotations if transform is None else transform.R.T @ contacts.rotations
     for j, item in enumerate(items):
         field = f'joint_limits[{j}]'
@@ -56,10 +56,9 @@ def joint_limits_from(message: Any, contacts: ContactSet, transform: Transform |
                 f'{len(item.twists)}')
         for i, twist in enumerate(item.twists):
             linear, angular = twist.linear, twist.angular
-            numbers = checked_numbers((linear.x, linear.y, linear.z, angular.x, angular.y,
-                                       angular.z), f'{field}.twists[{i}]')
-            matrix[j, i, :3] = np.array(numbers[:3]) @ axes[i]
-            matrix[j, i, 3] = np.array(numbers[3:]) @ axes[i][:, 2]
+            jacobians[j, i] = checked_numbers(
+                (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z),
+                f'{field}.twists[{i}]')
     pairs = [checked_numbers((item.max_torque, item.gravity_torque), f'joint_limits[{j}]')
              for j, item in enumerate(items)]
     weak = [j for j, (limit, _) in enumerate(pairs) if limit < SMALLEST]
@@ -68,7 +67,8 @@ def joint_limits_from(message: Any, contacts: ContactSet, transform: Transform |
             f'joint_limits[{weak[0]}].max_torque must be at least {SMALLEST:g}, got '
             f'{pairs[weak[0]][0]:g}: leave out a joint without a limit')
     try:
-        return JointLimits(tuple(item.name for item in items), np.array([p[0] for p in pairs]),
-                           matrix, np.array([p[1] for p in pairs]))
+        return JointLimits.of_jacobians(
+            [item.name for item in items], [limit for limit, _ in pairs], jacobians, axes,
+            [gravity for _, gravity in pairs])
     except InvalidGraspError as exc:
         raise InvalidMessageError(f'joint_limits: {exc}') from exc

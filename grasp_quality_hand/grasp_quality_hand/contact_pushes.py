@@ -113,10 +113,8 @@ def joint_limits(hand: HandKinematics, links: Sequence[str], grasp: Grasp, R: Ar
         Whether the hand's own weight counts; False where something else carries it.
 
     """
-    matrix = np.empty((len(hand.joints), len(grasp), 4))
-    for i, (link, position, rotation) in enumerate(zip(links, grasp.positions, grasp.rotations)):
-        J, axes = hand.jacobian(link, R @ position + p), R @ rotation
-        matrix[:, i, :3] = J[:3].T @ axes
-        matrix[:, i, 3] = J[3:].T @ axes[:, 2]
-    own = hand.gravity_efforts() if gravity else np.zeros(len(hand.joints))
-    return JointLimits(hand.joints, hand.effort_limits, matrix, own)
+    jacobians = np.stack([hand.jacobian(link, R @ position + p).T
+                          for link, position in zip(links, grasp.positions)], axis=1)
+    return JointLimits.of_jacobians(
+        hand.joints, hand.effort_limits, jacobians, R @ grasp.rotations,
+        hand.gravity_efforts() if gravity else None)

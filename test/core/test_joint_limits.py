@@ -185,6 +185,18 @@ def test_what_is_refused():
         dataclasses.replace(antipodal(), joint_limits=3.0)
 
 
+def test_jacobians_give_the_torques_whose_power_is_that_of_the_contacts():
+    rng = np.random.default_rng(5)
+    jacobians, rates = rng.normal(size=(3, 2, 6)), rng.normal(size=3)
+    frames, forces = antipodal(torsional_friction=0.1).rotations, rng.normal(size=(2, 4))
+    gravity = rng.normal(size=3)
+    limits = JointLimits.of_jacobians('abc', np.ones(3), jacobians, frames, gravity)
+    twists = np.einsum('j,jkx->kx', rates, jacobians)
+    power = sum(f[:3] @ R.T @ v[:3] + f[3] * R[:, 2] @ v[3:]
+                for f, R, v in zip(forces, frames, twists))
+    assert rates @ (limits.torques(forces) - gravity) == pytest.approx(power, rel=CLOSED_FORM)
+
+
 def test_arrays_are_copied_and_read_only():
     given = np.ones(1)
     limits = JointLimits(['a'], given, np.zeros((1, 2, 4)))
