@@ -90,7 +90,7 @@ def solve_wrenches(grasp: Grasp, wrenches: Array, external_wrench: ArrayLike | N
 
     """
     limit = TimeLimit.of(time_limit_s)
-    load = NO_WRENCH if external_wrench is None else as_wrench(external_wrench, 'external wrench')
+    load = NO_WRENCH if external_wrench is None else as_wrench(external_wrench, 'external_wrench')
     count = len(wrenches)
     answers = Answers.empty(count, len(grasp) if forces else 0)
     if kernel_solver.handles_grasp(grasp):

@@ -189,6 +189,6 @@ def slip_margin(grasp: Grasp, forces: ArrayLike) -> Array:
 
     """
     require_grasp(grasp)
-    measured = checked(forces, (len(grasp), 4), 'measured forces', InvalidTaskError)
+    measured = checked(forces, (len(grasp), 4), 'forces', InvalidTaskError)
     measured = np.where([1, 1, 1, 0], measured, measured * (grasp.scales > 0.0))
     return 1.0 - friction_cone.usage(measured, grasp.scales, grasp.max_normal_forces)

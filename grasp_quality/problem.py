@@ -187,7 +187,7 @@ def assemble(grasp: Grasp, virtual: VirtualContact,
     if external_wrench is None:
         load = NO_WRENCH
     else:
-        load = as_wrench(external_wrench, 'external wrench')
+        load = as_wrench(external_wrench, 'external_wrench')
     active = grasp.scales > 0.0
     layout = layout_of(
         active.tobytes(), grasp.groups, grasp.bound == 'l2',

@@ -120,7 +120,7 @@ def robust_alpha(
     """
     require_grasp(grasp)
     limit = TimeLimit.of(time_limit_s)
-    load = NO_WRENCH if external_wrench is None else as_wrench(external_wrench, 'external wrench')
+    load = NO_WRENCH if external_wrench is None else as_wrench(external_wrench, 'external_wrench')
     noise = Uncertainty(contact_noise, normal_noise, friction_noise, load_noise, len(grasp))
     levels = _checked_levels(quantile)
     sure = checked_number(confidence, 'confidence', InvalidTaskError, above=0.0, below=1.0)

@@ -48,7 +48,7 @@ class TaskWrench:
 
     def __post_init__(self) -> None:
         """Validate and copy."""
-        object.__setattr__(self, 'wrench', _nonzero(self.wrench, 'task wrench'))
+        object.__setattr__(self, 'wrench', _nonzero(self.wrench, 'task_wrench'))
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +143,7 @@ class TaskPolytope:
 
     def __post_init__(self) -> None:
         """Validate and copy."""
-        wrenches = checked(self.wrenches, (None, 6), 'task wrenches', InvalidTaskError)
+        wrenches = checked(self.wrenches, (None, 6), 'task_wrenches', InvalidTaskError)
         check_rows(wrenches, 'task_wrenches')
         if self.weights is None:
             weights = frozen(np.full(len(wrenches), 1.0 / len(wrenches)))
@@ -177,8 +177,8 @@ class TaskEllipsoid:
 
     def __post_init__(self) -> None:
         """Validate and copy."""
-        axes = checked(self.axes, (None, 6), 'ellipsoid axes', InvalidTaskError)
-        check_rows(axes, 'ellipsoid axes')
+        axes = checked(self.axes, (None, 6), 'axes', InvalidTaskError)
+        check_rows(axes, 'axes')
         object.__setattr__(self, 'axes', axes)
 
     @property
@@ -196,4 +196,4 @@ def check_rows(wrenches: Array, name: str) -> None:
         raise InvalidTaskError(f'{name} must hold at least one wrench, got none')
     zero = [i for i, row in enumerate(wrenches) if np.abs(row).max() < SMALLEST]
     if zero:
-        raise InvalidTaskError(f'{name} must not be zero, but rows {zero} are')
+        raise InvalidTaskError(f'{name} must not be zero, but rows {zero} are: leave them out')

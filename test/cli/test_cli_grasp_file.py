@@ -88,7 +88,7 @@ def test_an_ellipsoid_of_the_file_is_that_of_the_core(examples):
     ('contacts:\n- position: [0, 0, 0]\n  quaternion: [0, 0, 0, 2]', 3, 'norm 1'),
     (f'contacts:\n{CONTACT}\ntasks:\n  lift: {{}}', 4, 'exactly one of wrench, cone'),
     (f'contacts:\n{CONTACT}\ntasks:\n  lift:\n    wrench: [0, 0, 0, 0, 0, 0]', 5,
-     'tasks.lift.wrench cannot be used: task wrench must not be zero'),
+     'tasks.lift.wrench cannot be used: task_wrench must not be zero'),
     (f'contacts:\n{CONTACT}\ntasks:\n  lift:\n    cone: {{axis: [0, 0, 1, 0, 0, 0]}}', 5,
      'must have the field lateral_x'),
     ('contacts:\n- position: [0, 0, 0]\n  normal: [0, 0, 1]\n  max_normal_force: 0\n', 4,

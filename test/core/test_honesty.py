@@ -81,5 +81,5 @@ def test_contacts_closer_than_atoms_are_in_one_place(size):
 def test_numbers_whose_products_leave_float64_are_refused(size):
     with pytest.raises(InvalidContactError, match='max_normal_force'):
         Contact((0, 0, 0), (0, 0, 1), max_normal_force=size)
-    with pytest.raises(InvalidTaskError, match='task wrench'):
+    with pytest.raises(InvalidTaskError, match='task_wrench'):
         TaskWrench([size, 0, 0, 0, 0, 0])

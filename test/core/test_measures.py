@@ -159,13 +159,13 @@ def test_slip_margin_of_models_that_carry_less():
     (lambda: evaluate(antipodal(), TaskWrench(FX), barrier_weight=np.nan),
      'barrier_weight must be finite'),
     (lambda: evaluate(antipodal(), TaskWrench(FX), external_wrench=[1, 2]),
-     r'external wrench must have shape \(6\)'),
+     r'external_wrench must have shape \(6\)'),
     (lambda: wrench_map(antipodal(), [[1, 2, 3]]), r'directions must have shape \(n, 6\)'),
     (lambda: wrench_map(antipodal(), [FX, 0 * FX]), r'directions must not be zero, but rows .1.'),
     (lambda: wrench_map(antipodal(), np.zeros((0, 6))), 'directions must hold at least one'),
     (lambda: slip_margin(antipodal(), [[0, 0, 1, 0]]),
-     r'measured forces must have shape \(2, 4\)'),
-    (lambda: slip_margin(antipodal(), np.full((2, 4), np.nan)), 'measured forces must be finite'),
+     r'forces must have shape \(2, 4\)'),
+    (lambda: slip_margin(antipodal(), np.full((2, 4), np.nan)), 'forces must be finite'),
 ])
 def test_error_names_value_and_rule(call, message):
     with pytest.raises(InvalidTaskError, match=message):

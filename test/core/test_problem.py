@@ -77,7 +77,7 @@ def test_same_numbers_in_other_units():
     (lambda: build_problem(antipodal(), TaskPolytope([FX])),
      r'^build_problem takes a TaskWrench or a TaskCone, got TaskPolytope: .* evaluate\(\)$'),
     (lambda: build_problem(antipodal(), FX), 'takes a TaskWrench or a TaskCone, got ndarray'),
-    (lambda: build_problem(antipodal(), TaskWrench(FX), [1.0]), 'external wrench must have shape'),
+    (lambda: build_problem(antipodal(), TaskWrench(FX), [1.0]), 'external_wrench must have shape'),
     (lambda: build_problem(antipodal(), TaskWrench(FX), [np.inf] * 6), 'must be finite')])
 def test_error_names_value_and_rule(make, message):
     with pytest.raises(InvalidTaskError, match=message):

@@ -160,7 +160,7 @@ def test_of_a_polytope_the_weakest_wrench_counts_and_of_a_cone_alpha_z():
     ({'confidence': 1.0}, 'confidence must be less than 1'),
     ({'seed': -1}, 'seed must be a whole number from 0'),
     ({'friction_noise': -1.0}, 'friction_noise must be finite, at least 0'),
-    ({'external_wrench': [1.0]}, 'external wrench')])
+    ({'external_wrench': [1.0]}, 'external_wrench')])
 def test_refusals(arguments, words):
     with pytest.raises(InvalidTaskError, match=words):
         robust_alpha(antipodal(), TaskWrench(FY), **arguments)

@@ -12,10 +12,10 @@ from tolerances import EXACT
 
 
 @pytest.mark.parametrize('make, message', [
-    (lambda: TaskWrench(np.zeros(6)), 'task wrench must not be zero'),
-    (lambda: TaskWrench([1, 2, 3]), r'task wrench must have shape \(6\)'),
-    (lambda: TaskWrench(np.full(6, np.nan)), 'task wrench must be finite'),
-    (lambda: TaskWrench('up'), 'task wrench must be an array'),
+    (lambda: TaskWrench(np.zeros(6)), 'task_wrench must not be zero'),
+    (lambda: TaskWrench([1, 2, 3]), r'task_wrench must have shape \(6\)'),
+    (lambda: TaskWrench(np.full(6, np.nan)), 'task_wrench must be finite'),
+    (lambda: TaskWrench('up'), 'task_wrench must be an array'),
     (lambda: TaskCone(np.zeros(6), FY, FZ, 0.5), 'axis must not be zero'),
     (lambda: TaskCone(FX, FY, [0.0], 0.5), r'lateral_y must have shape \(6\)'),
     (lambda: TaskCone(FX, FY, FZ, -0.1), r'half_angle \[rad\] must be at least 0'),
@@ -26,12 +26,14 @@ from tolerances import EXACT
     (lambda: TaskCone(FX, -FX, FZ, 1.0), 'holds the zero wrench, so that alpha_z has no end'),
     (lambda: TaskCone(FX + FY, FX, FY, 1.0), 'holds the zero wrench'),
     (lambda: TaskPolytope(np.zeros((0, 6))), 'task_wrenches must hold at least one wrench'),
-    (lambda: TaskPolytope([FX, np.zeros(6)]), r'task_wrenches must not be zero, but rows \[1\]'),
+    (lambda: TaskPolytope([FX, np.zeros(6)]),
+     r'task_wrenches must not be zero, but rows \[1\] are: leave'),
+    (lambda: TaskPolytope([FX[:3]]), r'task_wrenches must have shape \(n, 6\)'),
     (lambda: TaskPolytope([FX, FY], [1.0]), r'weights must have shape \(2\)'),
     (lambda: TaskPolytope([FX, FY], [1.0, -1.0]), 'weights must be >= 0'),
     (lambda: TaskPolytope([FX, FY], [0.0, 0.0]), 'weights must be >= 0 with at least one > 0'),
-    (lambda: TaskEllipsoid([FX[:3]]), r'ellipsoid axes must have shape \(n, 6\)'),
-    (lambda: TaskEllipsoid([np.zeros(6)]), 'ellipsoid axes must not be zero'),
+    (lambda: TaskEllipsoid([FX[:3]]), r'axes must have shape \(n, 6\)'),
+    (lambda: TaskEllipsoid([np.zeros(6)]), 'axes must not be zero'),
 ])
 def test_error_names_value_and_rule(make, message):
     with pytest.raises(InvalidTaskError, match=message):
