@@ -44,10 +44,13 @@ from grasp_quality.measures import evaluate, slip_margin, wrench_map
 from grasp_quality.problem import build_problem, ConicProblem
 from grasp_quality.robust import robust_alpha, RobustAlpha
 from grasp_quality.slopes import Slopes
-from grasp_quality.solution import ConeSolution, PolytopeSolution, Solution, Status, WrenchMap
+from grasp_quality.solution import ConeSolution, PolytopeSolution, Solution, WrenchMap
 from grasp_quality.solve import solve
+from grasp_quality.status import Status
 from grasp_quality.task import TaskCone, TaskEllipsoid, TaskPolytope, TaskWrench
 from grasp_quality.volume import volume, WrenchVolume
+
+__version__ = '0.1.0'  # a test compares it with package.xml
 
 __all__ = [
     'BallRadius', 'Change', 'ConeSolution', 'ConicProblem', 'Contact', 'ContactModel',

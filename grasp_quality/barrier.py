@@ -23,8 +23,9 @@ from grasp_quality.exceptions import SolverError
 from grasp_quality.grasp import Grasp
 from grasp_quality.problem import assemble, ConicProblem, VirtualContact
 from grasp_quality.proof import GAP_TOLERANCE, held, Proof, prove
-from grasp_quality.solution import Solution, Status
+from grasp_quality.solution import Solution
 from grasp_quality.solve import prove_optimal, task_share
+from grasp_quality.status import Status
 from grasp_quality.time_limit import Limit, TimeLimit
 import numpy as np
 

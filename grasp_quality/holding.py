@@ -17,8 +17,9 @@ from grasp_quality.arrays import Array, frozen
 from grasp_quality.grasp import Grasp
 from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.proof import USAGE_TOLERANCE
-from grasp_quality.solution import NO_FORCES, NO_USAGE, Status
+from grasp_quality.solution import NO_FORCES, NO_USAGE
 from grasp_quality.solve import prove_optimal
+from grasp_quality.status import ForceAnswer, Status
 from grasp_quality.time_limit import Limit, TimeLimit
 from grasp_quality.wrench import as_wrench
 import numpy as np
@@ -28,7 +29,7 @@ NEGLIGIBLE = 1e-15  # share of the caps that needs no forces to hold
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class MinimumForces:
+class MinimumForces(ForceAnswer):
     """
     Smallest contact forces that balance an external wrench: the dual problem (section III).
 
@@ -61,11 +62,6 @@ class MinimumForces:
     violation: float
     cone_usage: Array
 
-    @property
-    def friction_margin(self) -> float:
-        """1 minus the largest cone usage; 0 when infeasible."""
-        return 1.0 - float(self.cone_usage.max()) if len(self.cone_usage) else 0.0
-
 
 def minimum_forces(grasp: Grasp, external_wrench: ArrayLike,
                    time_limit_s: Limit = None) -> MinimumForces:
@@ -95,7 +91,7 @@ def minimum_forces(grasp: Grasp, external_wrench: ArrayLike,
     """
     require_grasp(grasp)
     time_limit_s = TimeLimit.of(time_limit_s)
-    load = as_wrench(external_wrench, 'external wrench')
+    load = as_wrench(external_wrench, 'external_wrench')
     scaled = grasp.scaled_wrench(load)
     size = float(np.sqrt(scaled @ scaled))
     if size <= NEGLIGIBLE and grasp.rests:

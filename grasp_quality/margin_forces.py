@@ -19,7 +19,8 @@ from grasp_quality.friction_cone import usage_of_shares
 from grasp_quality.grasp import Grasp
 from grasp_quality.holding import minimum_forces
 from grasp_quality.problem import assemble, VirtualContact
-from grasp_quality.solution import NO_FORCES, NO_USAGE, Status
+from grasp_quality.solution import NO_FORCES, NO_USAGE
+from grasp_quality.status import ForceAnswer, Status
 from grasp_quality.time_limit import TimeLimit
 from grasp_quality.wrench import as_wrench
 import numpy as np
@@ -30,7 +31,7 @@ NO_TASK = VirtualContact(np.zeros((6, 1)), False, np.array([1.0]))
 
 
 @dataclass(frozen=True, eq=False)
-class HoldForces:
+class HoldForces(ForceAnswer):
     """
     Contact forces that apply exactly a wanted wrench.
 
@@ -58,16 +59,6 @@ class HoldForces:
     cone_usage: Array
     bound_usage: float
     center: ForceCenter | None = None
-
-    @property
-    def feasible(self) -> bool:
-        """Whether there are forces: any status but INFEASIBLE."""
-        return self.status is not Status.INFEASIBLE
-
-    @property
-    def friction_margin(self) -> float:
-        """1 minus the largest cone usage; 0 when infeasible."""
-        return 1.0 - float(self.cone_usage.max()) if len(self.cone_usage) else 0.0
 
 
 def hold_forces(grasp: Grasp, external_wrench: ArrayLike | None = None,
@@ -110,11 +101,11 @@ def hold_forces(grasp: Grasp, external_wrench: ArrayLike | None = None,
     """
     require_grasp(grasp)
     load = np.zeros(6) if external_wrench is None else as_wrench(
-        external_wrench, 'external wrench')
+        external_wrench, 'external_wrench')
     multiple = checked_number(alpha, 'alpha', InvalidTaskError)
     weight = checked_number(cap_weight, 'cap_weight', InvalidTaskError, above=0.0)
     if task_wrench is not None:
-        load = load - multiple * as_wrench(task_wrench, 'task wrench')
+        load = load - multiple * as_wrench(task_wrench, 'task_wrench')
     problem = assemble(grasp, NO_TASK, load)
     limit = TimeLimit.of(time_limit_s)
     center = force_center(

@@ -21,8 +21,8 @@ from grasp_quality.measures import slip_margin
 from grasp_quality.nearest import distances, nearest_forces
 from grasp_quality.problem import assemble, build_problem
 from grasp_quality.proof import GAP_TOLERANCE
-from grasp_quality.solution import Status
 from grasp_quality.solve import prove_optimal
+from grasp_quality.status import Status
 from grasp_quality.task import TaskWrench
 from grasp_quality.time_limit import TimeLimit
 import numpy as np
@@ -104,7 +104,7 @@ def measured_margin(grasp: Grasp, forces: ArrayLike, wanted_margin: float = 0.2,
     limit = TimeLimit.of(time_limit_s)
     wanted = checked_number(
         wanted_margin, 'wanted_margin', InvalidTaskError, minimum=0.0, below=1.0)
-    measured = checked(forces, (len(grasp), 4), 'measured forces', InvalidTaskError)
+    measured = checked(forces, (len(grasp), 4), 'forces', InvalidTaskError)
     measured = np.where([1, 1, 1, 0], measured, measured * (grasp.scales > 0.0))
     margins = slip_margin(grasp, measured)
     applied = grasp.wrench(measured)

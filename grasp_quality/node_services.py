@@ -19,7 +19,7 @@ from grasp_quality.holding import minimum_forces
 from grasp_quality.measures import evaluate, wrench_map
 from grasp_quality.node_worker import Worker
 from grasp_quality.robust import robust_alpha
-from grasp_quality.solution import Status
+from grasp_quality.status import Status
 from grasp_quality.task import TaskWrench
 from grasp_quality.time_limit import TimeLimit
 from grasp_quality_msgs import srv

@@ -15,7 +15,8 @@ from typing import Any
 from grasp_quality.arrays import Array, frozen, SMALLEST
 from grasp_quality.batch import solve_wrenches
 from grasp_quality.grasp import Grasp
-from grasp_quality.solution import PolytopeSolution, Solution, Status
+from grasp_quality.solution import PolytopeSolution, Solution
+from grasp_quality.status import Status
 from grasp_quality.task import TaskEllipsoid, TaskPolytope, TaskWrench
 from grasp_quality.time_limit import Limit
 import numpy as np

@@ -20,8 +20,9 @@ from grasp_quality.exceptions import SolverError
 from grasp_quality.force_center import force_center
 from grasp_quality.problem import ConicProblem
 from grasp_quality.proof import Proof
-from grasp_quality.solution import Solution, Status
+from grasp_quality.solution import Solution
 from grasp_quality.solve import task_share
+from grasp_quality.status import Status
 from grasp_quality.time_limit import TimeLimit
 import numpy as np
 from numpy.typing import NDArray

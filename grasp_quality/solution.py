@@ -9,7 +9,6 @@ subgradient.
 """
 
 from dataclasses import dataclass
-import enum
 from functools import cached_property
 
 from grasp_quality import sensitivity
@@ -17,22 +16,15 @@ from grasp_quality.arrays import Array, Bools, frozen
 from grasp_quality.force_center import ForceCenter
 from grasp_quality.grasp import Grasp
 from grasp_quality.proof import NO_JOINTS, Proof
+from grasp_quality.status import Answer, ForceAnswer, Status
 import numpy as np
 
 NO_FORCES = frozen(np.zeros((0, 4)))
 NO_USAGE = frozen(np.zeros(0))
 
 
-class Status(enum.Enum):
-    """Outcome of a measure."""
-
-    OPTIMAL = 'optimal'
-    OPTIMAL_NO_INTERIOR = 'optimal, but without friction margin: no strictly interior force exists'
-    INFEASIBLE = 'infeasible'
-
-
 @dataclass(frozen=True, eq=False)
-class Solution:
+class Solution(ForceAnswer):
     """
     Answer for one task.
 
@@ -90,19 +82,9 @@ class Solution:
     center: ForceCenter | None = None
 
     @property
-    def feasible(self) -> bool:
-        """Whether there are forces: any status but INFEASIBLE."""
-        return self.status is not Status.INFEASIBLE
-
-    @property
     def alpha_interval(self) -> tuple[float, float]:
         """Feasible factors (alpha_lower, alpha)."""
         return self.alpha_lower, self.alpha
-
-    @property
-    def friction_margin(self) -> float:
-        """1 minus the largest cone usage; 0 when infeasible."""
-        return 1.0 - float(self.cone_usage.max()) if self.feasible else 0.0
 
     @property
     def dalpha_dexternal_wrench(self) -> Array:
@@ -187,7 +169,7 @@ class ConeSolution(Solution):
 
 
 @dataclass(frozen=True, eq=False)
-class PolytopeSolution:
+class PolytopeSolution(Answer):
     """
     Answer for several wrenches, each solved by itself (eq. 18).
 

@@ -24,7 +24,8 @@ from grasp_quality.problem import ConicProblem, NO_WRENCH
 from grasp_quality.proof import GAP_TOLERANCE, held, NO_JOINTS, Proof, prove
 from grasp_quality.raw_answer import RawAnswer
 from grasp_quality.sensitivity import dimensional_multiplier
-from grasp_quality.solution import ConeSolution, NO_FORCES, NO_USAGE, Solution, Status
+from grasp_quality.solution import ConeSolution, NO_FORCES, NO_USAGE, Solution
+from grasp_quality.status import Status
 from grasp_quality.time_limit import Limit, TimeLimit
 import numpy as np
 

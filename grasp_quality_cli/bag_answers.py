@@ -15,7 +15,7 @@ from grasp_quality import evaluate, friction_cone, GraspQualityError, SolverErro
 from grasp_quality.governing import governing
 from grasp_quality.many import evaluate_many, Outcome
 from grasp_quality.node_inputs import measured_margin, Scene
-from grasp_quality.solution import Status
+from grasp_quality.status import Status
 from grasp_quality_cli.bag_inputs import Sample
 from grasp_quality_cli.grasp_file import Task
 from msg_adapters.result_codes import Code, error_code, status_code

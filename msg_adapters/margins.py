@@ -4,7 +4,7 @@
 
 from grasp_quality.grasp import Grasp
 from grasp_quality.measured_margin import MeasuredMargin
-from grasp_quality.solution import Status
+from grasp_quality.status import Status
 from grasp_quality_msgs.msg import ContactMargin, GraspMargin
 from msg_adapters.results import status_result
 from msg_adapters.wrenches import to_wrench

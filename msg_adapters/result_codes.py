@@ -5,7 +5,7 @@
 import enum
 
 from grasp_quality.exceptions import GraspQualityError, SolverError, SolverTimeoutError
-from grasp_quality.solution import Status
+from grasp_quality.status import Status
 from msg_adapters.errors import (
     NoContactsError, NotActiveError, StaleContactsError, TransformError)
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Result codes: the ResultCode messages of outcomes and errors."""
 
-from grasp_quality.solution import Status
+from grasp_quality.status import Status
 from grasp_quality_msgs.msg import ResultCode
 from msg_adapters.result_codes import Code, error_code, status_code
 

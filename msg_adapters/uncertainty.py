@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any, TypedDict
 
 from grasp_quality.robust import RobustAlpha as Answer
-from grasp_quality.solution import Status
+from grasp_quality.status import Status
 from grasp_quality_msgs.srv import RobustAlpha
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.number_checks import checked_numbers

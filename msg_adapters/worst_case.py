@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from grasp_quality.ball import BallRadius as Answer, WIDTH
-from grasp_quality.solution import Status
+from grasp_quality.status import Status
 from grasp_quality.task import TaskEllipsoid
 from grasp_quality_msgs.srv import BallRadius
 from msg_adapters.errors import InvalidMessageError

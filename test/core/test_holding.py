@@ -16,7 +16,7 @@ from tolerances import SOLVER
 @pytest.mark.parametrize('bound, peak', [('linf', 0.2), ('l1', 0.4), ('l2', 0.2 * np.sqrt(2.0))])
 def test_weight_between_two_fingers(bound, peak):
     held = minimum_forces(antipodal(0.5, bound=bound), -0.2 * FY)
-    assert held.status is Status.OPTIMAL
+    assert held.status is Status.OPTIMAL and held.feasible
     assert held.peak == pytest.approx(peak, rel=SOLVER)
     assert held.peak_lower <= held.peak * (1.0 + SOLVER)
     assert held.violation == 0.0
@@ -53,7 +53,8 @@ def test_no_load_needs_no_forces():
 @pytest.mark.parametrize('load, missing', [(-1.5 * FY, 0.5), (-3.0 * FX, 2.0)])
 def test_overload_says_how_much_is_missing(load, missing):
     held = minimum_forces(antipodal(0.5), load)
-    assert held.status is Status.INFEASIBLE and held.forces.shape == (0, 4)
+    assert held.status is Status.INFEASIBLE and not held.feasible
+    assert held.forces.shape == (0, 4)
     assert held.violation == pytest.approx(missing, rel=SOLVER)
     assert held.peak == pytest.approx(1.0 + missing, rel=SOLVER)
     assert held.friction_margin == 0.0
@@ -77,8 +78,8 @@ def test_violation_in_newtons_whatever_the_caps():
 
 
 @pytest.mark.parametrize('load, message', [
-    ([1, 2], r'external wrench must have shape \(6\)'),
-    ([np.nan] * 6, 'external wrench must be finite')])
+    ([1, 2], r'external_wrench must have shape \(6\)'),
+    ([np.nan] * 6, 'external_wrench must be finite')])
 def test_error_names_value_and_rule(load, message):
     with pytest.raises(InvalidTaskError, match=message):
         minimum_forces(antipodal(), load)

@@ -59,12 +59,13 @@ def test_a_single_wrench_is_its_own_parallelotope():
 
 def test_more_than_eight_wrenches_have_no_parallelotope_scale():
     solution = evaluate(three_finger(), TaskPolytope(SIX))
-    assert solution.parallelotope_scale is None and solution.alphas.shape == (12,)
+    assert solution.feasible and solution.parallelotope_scale is None
+    assert solution.alphas.shape == (12,)
 
 
 def test_infeasible_when_one_wrench_is():
     solution = evaluate(single(), TaskPolytope([FX, FY]), external_wrench=-2.0 * FX)
-    assert solution.status is Status.INFEASIBLE
+    assert solution.status is Status.INFEASIBLE and not solution.feasible
     assert (solution.quality, solution.parallelotope_scale) == (0.0, 0.0)
     assert solution.forces.shape == (0, 1, 4) and solution.alphas.shape == (2,)
 
