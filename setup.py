@@ -13,6 +13,7 @@ setup(
     name=NAME,
     version='0.1.0',
     packages=['grasp_quality', 'grasp_quality_cli', 'msg_adapters'],
+    package_data={'grasp_quality': ['py.typed'], 'msg_adapters': ['py.typed']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{NAME}']),
         (f'share/{NAME}', ['package.xml']),
