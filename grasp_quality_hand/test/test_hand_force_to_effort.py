@@ -3,31 +3,17 @@
 """force_to_effort as a black box, behind a real quality node that gets killed."""
 
 import math
-import os
 import signal
 import subprocess
 
 from bridge_rig import DEADLINE, EXACT, FOLLOWED, Rig, START
-from grasp_quality_hand.demo_processes import claim_domain, discovery_environment, executable
+from grasp_quality_hand.demo_processes import executable
 from grasp_quality_msgs.msg import ContactForce, ContactForceArray
 import numpy as np
 import pytest
 from std_msgs.msg import Header
 
 HELD = [-0.25, 0.15]    # right, left [N m]
-
-
-@pytest.fixture(scope='module')
-def domain():
-    """Take a ROS domain; put the environment back afterwards."""
-    before = {name: os.environ.get(name) for name in discovery_environment(0)}
-    claim = claim_domain()
-    yield int(os.environ['ROS_DOMAIN_ID'])
-    claim.close()
-    for name, value in before.items():
-        os.environ.pop(name)
-        if value is not None:
-            os.environ[name] = value
 
 
 @pytest.fixture(scope='module')

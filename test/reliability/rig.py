@@ -5,10 +5,9 @@
 from pathlib import Path
 import sys
 import time
-from types import SimpleNamespace
 
 from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode
-from harness import Client, Process
+from harness import Process
 from msg_adapters.stamps import stamp_ns
 from rclpy.qos import QoSProfile
 
@@ -100,9 +99,3 @@ class Record:
 def positions(poses):
     """Return the points of poses, or of forces, as a set."""
     return {(p.position.x, p.position.y, p.position.z) for p in poses}
-
-
-def client_of(namespace):
-    """Return a client and a record of what the node in a namespace says."""
-    client = Client(namespace)
-    return SimpleNamespace(client=client, record=Record(client))
