@@ -3,10 +3,10 @@
 """
 What a participant on another host sees of a quality node: ``python -m benchmarks.isolation``.
 
-Two network namespaces joined by a cable stand for two hosts. The node runs in one, first with the
-discovery range of demo and tests, then with ROS 2's own as the control; from the other one its
-topics are looked for. Needs root and iproute2. Ends with code 1 when the result is not
-as promised.
+Two network namespaces joined by a cable stand for two hosts. The node runs in one, with the discovery
+range of the demo, with the profile of the tests, and with ROS 2's own range as the control; from the
+other one its topics are looked for. Needs root and iproute2. Ends with code 1 when the result is not as
+promised.
 """
 
 import os
@@ -17,9 +17,18 @@ import sys
 
 from ament_index_python.packages import get_package_prefix
 
+sys.path.insert(0, str(Path(__file__).parents[1] / 'test' / 'node'))
+
+from transports import FILE, PROFILE, RANGE  # noqa: E402
+
 HOSTS = (('grasp_quality_hand', '10.213.0.1'), ('grasp_quality_stranger', '10.213.0.2'))
 LOOK_S = 10.0
 DOMAIN = 42
+# no shared memory where all is open: it knows no hosts
+OPEN = {RANGE: 'SUBNET', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'}
+WAYS = {'LOCALHOST': {RANGE: 'LOCALHOST'},
+        'the profile of the tests': {RANGE: 'SYSTEM_DEFAULT', FILE: str(PROFILE)},
+        'SUBNET': OPEN}
 LOOK = f"""
 import time, rclpy
 rclpy.init()
@@ -49,22 +58,20 @@ def connect():
         ip('-n', host, 'link', 'set', 'lo', 'up')
 
 
-def topics_seen(discovery_range):
+def topics_seen(way):
     """Run the node on one host and count its topics that the other one sees."""
-    environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN),
-                   'ROS_AUTOMATIC_DISCOVERY_RANGE': discovery_range,
-                   'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'}  # shared memory knows no hosts
+    environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)}
     program = Path(get_package_prefix('grasp_quality'), 'lib/grasp_quality/grasp_quality_node')
     node = subprocess.Popen(
-        ['ip', 'netns', 'exec', HOSTS[0][0], sys.executable, program], env=environment,
-        stderr=subprocess.PIPE, text=True)
+        ['ip', 'netns', 'exec', HOSTS[0][0], sys.executable, program],
+        env={**environment, **way}, stderr=subprocess.PIPE, text=True)
     try:
         next(line for line in node.stderr if 'active' in line)
         # the stranger looks as far as it can, whatever the node was told
         looked = subprocess.run(
             ['ip', 'netns', 'exec', HOSTS[1][0], sys.executable, '-c', LOOK], text=True,
             stdout=subprocess.PIPE, check=True,
-            env={**environment, 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'})
+            env={**environment, **OPEN})
         return int(looked.stdout)
     finally:
         node.send_signal(signal.SIGINT)
@@ -75,13 +82,14 @@ def main():
     """Measure and print; return 1 when a host sees what it should not, or nothing at all."""
     try:
         connect()
-        hidden, open_ = topics_seen('LOCALHOST'), topics_seen('SUBNET')
+        seen = {name: topics_seen(way) for name, way in WAYS.items()}
     finally:
         for host, _ in HOSTS:
             subprocess.run(['ip', 'netns', 'delete', host], check=False)
-    print(f'topics of the node that another host sees within {LOOK_S:g} s: {hidden} with the '
-          f'discovery range LOCALHOST, {open_} with SUBNET')
-    return int(hidden > 0 or not open_)
+    print(f'topics of the node that another host sees within {LOOK_S:g} s: '
+          + ', '.join(f'{count} with {name}' for name, count in seen.items()))
+    open_ = seen.pop('SUBNET')
+    return int(any(seen.values()) or not open_)
 
 
 if __name__ == '__main__':

@@ -16,12 +16,13 @@ import tempfile
 import time
 
 from benchmarks import document
-from benchmarks.witness import dropped, resident_mb, Witness
+from benchmarks.witness import resident_mb, Witness
 from callers import start_callers
 from grasp_quality_msgs.msg import ResultCode
 from harness import start_audit, start_node
 import numpy as np
 from rig import start_feed, TASK
+from transports import dropped
 
 CONTACTS, RATE_HZ, CLIENTS = 32, 1000, 8
 MAX_AGE_S, ALLOWANCE_S = 0.1, 0.05

@@ -3,7 +3,7 @@
 """
 The node from outside: round trips by service and by topic, and the live loop at 200 Hz.
 
-Node and client are processes of their own on Fast DDS over UDP, with 8 contacts. The same client
+Node and client are processes of their own, with 8 contacts (``transports``). The same client
 measures a process that only echoes (``node_echo``), for scale.
 """
 
@@ -17,8 +17,6 @@ import time
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / 'test' / 'node'))
-os.environ.update({
-    'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'})
 
 from benchmarks import document  # noqa: E402
 from geometry_msgs.msg import PoseArray  # noqa: E402
@@ -28,6 +26,7 @@ from grasps import EIGHT, pose_array, wrench  # noqa: E402
 from harness import BEST_EFFORT, Client, Process, start_node  # noqa: E402
 from msg_adapters.stamps import seconds, stamp_ns  # noqa: E402
 import numpy as np  # noqa: E402
+import transports  # noqa: E402
 
 SAMPLES, WARM_UP = 2000, 200
 RATE_HZ, LIVE_S = 200.0, 60.0
@@ -173,7 +172,7 @@ def section(rows, live, machine):
     late = int((live['ages'] > 1e3 / RATE_HZ).sum())
     return '\n'.join([
         '## The node', '',
-        f'Separate processes, {len(EIGHT)} contacts, Fast DDS over UDP; {machine}', '',
+        f'Separate processes, {len(EIGHT)} contacts, {transports.words()}; {machine}', '',
         '"Echo" answers with a message made before: it is what rclpy itself takes. Of the '
         'service, solving is the whole of the handler.', '',
         document.table(['round trip', 'median [ms]', 'p99 [ms]', 'solving [ms]', 'share',

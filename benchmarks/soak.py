@@ -23,11 +23,12 @@ import time
 
 from benchmarks import document
 from benchmarks.soak_faults import Faults
-from benchmarks.witness import dropped, inside, resident_mb, Witness
+from benchmarks.witness import inside, resident_mb, Witness
 from callers import start_callers
 from harness import start_audit, start_node
 import numpy as np
 from rig import start_feed, TASK
+from transports import dropped
 
 NAMESPACE = '/soak'
 RATE_HZ = 200.0

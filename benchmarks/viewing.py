@@ -19,8 +19,6 @@ import time
 
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test' / 'node'), str(ROOT / 'grasp_quality_hand' / 'test' / 'browser')]
-os.environ.update({
-    'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'})
 
 from benchmarks import document  # noqa: E402
 from benchmarks.node import cpu_s  # noqa: E402

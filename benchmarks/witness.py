@@ -8,7 +8,6 @@ got no answer was either lost on the way or replaced by a newer one at depth 1. 
 only place to lose it is a full socket buffer, and Linux counts that for every socket.
 """
 
-from contextlib import suppress
 import os
 from pathlib import Path
 import struct
@@ -17,8 +16,6 @@ import time
 
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test' / 'node'), str(ROOT / 'test' / 'reliability')]
-os.environ.update({
-    'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'})
 
 from geometry_msgs.msg import PoseArray  # noqa: E402
 from grasp_quality_hand.force_audit_node import ByHand  # noqa: E402
@@ -129,15 +126,3 @@ def inside(time_ns, windows):
 def resident_mb(pid):
     """Return the resident memory of a process [MB]."""
     return PAGE_MB * int(Path(f'/proc/{pid}/statm').read_text().split()[1])
-
-
-def dropped(pid):
-    """Return how many datagrams the sockets of a process had no room for."""
-    own = set()
-    for link in Path(f'/proc/{pid}/fd').iterdir():
-        with suppress(OSError):
-            name = os.readlink(link)
-            if name.startswith('socket:['):
-                own.add(name[8:-1])
-    rows = [line.split() for line in Path('/proc/net/udp').read_text().splitlines()[1:]]
-    return sum(int(row[12]) for row in rows if row[9] in own)

@@ -158,8 +158,8 @@ def _wait(children):
     """Keep everything running until Ctrl-C."""
     domain = os.environ['ROS_DOMAIN_ID']
     print('\nhand and node keep running; end with Ctrl-C. To look at them from another shell:\n'
-          f'  export ROS_DOMAIN_ID={domain} ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST '
-          'FASTDDS_BUILTIN_TRANSPORTS=UDPv4', flush=True)
+          f'  export ROS_DOMAIN_ID={domain} ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
+          flush=True)
     while True:
         for child in children:
             child.check()

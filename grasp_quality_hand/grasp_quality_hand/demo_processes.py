@@ -47,8 +47,7 @@ def claim_domain():
 
 def discovery_environment(domain):
     """Return the environment variables that put a process into the domain, on this machine."""
-    return {'ROS_DOMAIN_ID': str(domain), 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-            'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'}
+    return {'ROS_DOMAIN_ID': str(domain), 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
 
 
 def executable(package, name):

@@ -3,24 +3,29 @@
 """A running simulated hand in a ROS domain of its own."""
 
 import os
+from pathlib import Path
 import signal
+import sys
 
-from grasp_quality_hand.demo_processes import claim_domain, discovery_environment
-from hand_rig import Client, DEADLINE, start
-import pytest
+sys.path.insert(0, str(Path(__file__).parents[2] / 'test' / 'node'))
+
+from grasp_quality_hand.demo_processes import claim_domain  # noqa: E402
+from hand_rig import Client, DEADLINE, start  # noqa: E402
+import pytest  # noqa: E402
+from transports import keep_to_this_machine  # noqa: E402
 
 
 @pytest.fixture(scope='module')
 def domain():
     """Take a ROS domain; put the environment back afterwards."""
-    before = {name: os.environ.get(name) for name in discovery_environment(0)}
+    before = os.environ.get('ROS_DOMAIN_ID')
     claim = claim_domain()
+    keep_to_this_machine()  # as all tests do it, not as the demo
     yield int(os.environ['ROS_DOMAIN_ID'])
     claim.close()
-    for name, value in before.items():
-        os.environ.pop(name)
-        if value is not None:
-            os.environ[name] = value
+    os.environ.pop('ROS_DOMAIN_ID')
+    if before is not None:
+        os.environ['ROS_DOMAIN_ID'] = before
 
 
 @pytest.fixture(scope='module')

@@ -28,8 +28,7 @@ def environment():
     """Return what env.sh adds, and a ROS domain of its own on this machine only."""
     programs = Path(get_package_prefix('grasp_quality')) / 'lib' / 'grasp_quality'
     return {**os.environ, 'PATH': f'{programs}:{os.environ["PATH"]}', 'COLUMNS': '100',
-            'ROS_DOMAIN_ID': str(claim_domain()[0]), 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4',
-            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST', 'PYTHONUNBUFFERED': '1'}
+            'ROS_DOMAIN_ID': str(claim_domain()[0]), 'PYTHONUNBUFFERED': '1'}
 
 
 def words(text):

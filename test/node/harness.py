@@ -3,6 +3,8 @@
 """
 The node as its own process, and a client beside it, in a ROS domain that nobody else uses.
 
+Whoever imports this keeps to this machine, with all the processes that it starts.
+
 Nothing here sleeps in the hope that something has happened: every wait is for a condition, and
 fails after ``DEADLINE_S``.
 """
@@ -23,6 +25,9 @@ import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from transports import keep_to_this_machine
+
+keep_to_this_machine()
 
 DEADLINE_S = 60.0
 START_S = 120.0  # the first start after a change compiles the solver

@@ -9,9 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 
-os.environ.update({
-    'ROS_PYTHON_CHECK_FIELDS': '1', 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-    'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'})
+os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 
 NUMBERS = itertools.count()
 

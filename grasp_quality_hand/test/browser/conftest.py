@@ -12,9 +12,7 @@ import pytest
 
 ROOT = Path(__file__).parents[3]
 sys.path.insert(0, str(ROOT / 'test' / 'node'))
-os.environ.update({
-    'ROS_PYTHON_CHECK_FIELDS': '1', 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-    'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'})
+os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
 
 NAMES = (('chromium', 'chromium-browser', 'google-chrome'), ('chromedriver',))
 
