@@ -3,10 +3,10 @@
 """
 What a participant on another host sees of a quality node: ``python -m benchmarks.isolation``.
 
-Two network namespaces joined by a cable stand for two hosts. The node runs in one, with the discovery
-range of the demo, with the profile of the tests, and with ROS 2's own range as the control; from the
-other one its topics are looked for. Needs root and iproute2. Ends with code 1 when the result is not as
-promised.
+Two network namespaces joined by a cable stand for two hosts. The node runs in one, with the
+discovery range of the demo, with the profile of the tests, and with ROS 2's own range as the
+control; from the other one its topics are looked for. Needs root and iproute2. Ends with code 1
+when the result is not as promised.
 """
 
 import os

@@ -50,7 +50,7 @@ def main():
     while time.monotonic() < begin + seconds:
         witness.watch(0.2)
         if time.monotonic() > begin + len(resident):
-            resident.append(resident_mb(node.popen.pid))
+            resident.append(resident_mb(node.popen.pid).sum())
     windows = [(begin_ns, time.time_ns())]
     lost = dropped(node.popen.pid) - lost
     feed.end()

@@ -36,6 +36,7 @@ MAX_AGE_S = 0.1
 SETTLED_S = 60.0     # memory is compared with what it was then; with faults, later
 MEASURED_S = 30.0    # at least, from then on
 MOST_GROWTH_MB = 1.0
+MEMORY = ('memory of its own', 'pages of files', 'shared memory', 'resident memory')
 CALM_S = 1.0         # after a fault, before delays count
 EVERY_S = 6.0        # from the end of a fault to the next
 
@@ -54,7 +55,7 @@ class Soak:
         self.feed = self.new_feed()
         self.callers = [self.new_callers(), self.new_callers()]
         self.begin = time.monotonic()
-        self.resident = []  # (s, MB)
+        self.resident = []  # (s, MB of each kind)
         self.settled = None  # [s]
         self.lost = 0       # datagrams, outside of faults
 
@@ -103,11 +104,16 @@ class Soak:
 
 
 def memory(soak):
-    """Return it when it was settled, after every minute, at the end: medians of 5 s [MB]."""
-    times, sizes = np.array(soak.resident).T
+    """
+    Return it when it was settled, after every minute, at the end: medians of 5 s [MB].
+
+    Rows are these times, columns the kinds of ``resident_mb`` and their sum.
+    """
+    times = np.array([seconds for seconds, _ in soak.resident])
+    sizes = np.array([[*size, size.sum()] for _, size in soak.resident])
     minutes = np.arange(SETTLED_S, times[-1] - 30.0, 60.0)
-    return [float(np.median(sizes[(times > end - 5.0) & (times <= end)]))
-            for end in (soak.settled, *minutes, times[-1])]
+    return np.array([np.median(sizes[(times > end - 5.0) & (times <= end)], axis=0)
+                     for end in (soak.settled, *minutes, times[-1])])
 
 
 def run(seconds, seed, allowance_s, is_calm):
@@ -141,7 +147,8 @@ def main():
     soak, faults, windows = run(
         asked.seconds, asked.seed, asked.age_allowance, asked.calm)
     resident = memory(soak)
-    grown = resident[-1] - resident[0]
+    growth = resident[-1] - resident[0]
+    grown = growth[-1]
     counts = [process.counts() for process in soak.callers]
     soak.witness.client.close()
     node_log, codes = soak.node.log(), [soak.node.end(), soak.audit.end()]
@@ -158,9 +165,11 @@ def main():
         *rows(soak, windows),
         ('faults', ', '.join(
             f'{n} x {name}' for name, n in sorted(faults.done.items())) or 'none'),
-        ('memory of the node after each minute, at the end [MB]',
-         ', '.join(f'{size:.2f}' for size in resident[1:])),
-        (f'growth of it since {soak.settled:.0f} s [MB]', f'{grown:.2f}'),
+        *((f'{kind} after each minute, at the end [MB]',
+           ', '.join(f'{size:.2f}' for size in sizes))
+          for kind, sizes in zip(MEMORY, resident[1:].T)),
+        (f'growth of these since {soak.settled:.0f} s [MB]',
+         ', '.join(f'{size:.2f}' for size in growth)),
         ('audit', soak.audit.log().splitlines()[-1])]))
     for text in broken[:20]:
         print(f'BROKEN: {text}')

@@ -8,7 +8,6 @@ got no answer was either lost on the way or replaced by a newer one at depth 1. 
 only place to lose it is a full socket buffer, and Linux counts that for every socket.
 """
 
-import os
 from pathlib import Path
 import struct
 import sys
@@ -26,7 +25,6 @@ import numpy as np  # noqa: E402
 from rclpy.qos import QoSProfile, ReliabilityPolicy  # noqa: E402
 
 DEEP = 10_000
-PAGE_MB = os.sysconf('SC_PAGE_SIZE') / 1e6
 SENSOR = QoSProfile(depth=DEEP, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
@@ -124,5 +122,8 @@ def inside(time_ns, windows):
 
 
 def resident_mb(pid):
-    """Return the resident memory of a process [MB]."""
-    return PAGE_MB * int(Path(f'/proc/{pid}/statm').read_text().split()[1])
+    """Return the resident memory of a process [MB], shape (3,): its own, of files, shared."""
+    lines = Path(f'/proc/{pid}/status').read_text().splitlines()
+    status = dict(line.split(':', 1) for line in lines)
+    return 1.024e-3 * np.array([
+        int(status[kind].split()[0]) for kind in ('RssAnon', 'RssFile', 'RssShmem')])

@@ -4,8 +4,8 @@
 Killed processes once more with the transports that a robot has: shared memory and UDP.
 
 The other tests talk by UDP alone (``transports``). What a process killed with SIGKILL leaves in
-shared memory must not keep the others from what the tests below promise; they run as they are, in a
-pytest of their own, because a process keeps the transports it has begun with.
+shared memory must not keep the others from what the tests below promise. They run as they are, in
+a pytest of their own, because a process keeps the transports it has begun with.
 """
 
 import os
