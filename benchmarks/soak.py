@@ -148,7 +148,7 @@ def main():
         asked.seconds, asked.seed, asked.age_allowance, asked.calm)
     resident = memory(soak)
     growth = resident[-1] - resident[0]
-    grown = growth[-1]
+    grown = float(growth[-1])
     counts = [process.counts() for process in soak.callers]
     soak.witness.client.close()
     node_log, codes = soak.node.log(), [soak.node.end(), soak.audit.end()]
