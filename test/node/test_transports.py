@@ -19,7 +19,7 @@ from rcl_interfaces.srv import GetParameters
 import transports
 
 LOOPBACK = '0100007F'  # as in /proc/net/udp
-MANY = 2000            # samples, more than a socket keeps
+MANY = 5000            # samples, more than a socket keeps
 
 
 @pytest.mark.parametrize('whose', ['node', 'audit', 'client'])
