@@ -22,7 +22,7 @@ from grasp_quality_msgs.msg import ResultCode
 from harness import start_audit, start_node
 import numpy as np
 from rig import start_feed, TASK
-from transports import dropped
+from transports import dropped, lost_words
 
 CONTACTS, RATE_HZ, CLIENTS = 32, 1000, 8
 MAX_AGE_S, ALLOWANCE_S = 0.1, 0.05
@@ -76,7 +76,7 @@ def main():
     print(document.table(['', ''], [
         ('samples sent a second', f'{sent / seconds:.0f}'),
         ('answered a second', f'{answered / seconds:.0f}'),
-        ('lost by the middleware', f'{lost}'),
+        ('lost by the middleware', lost_words(lost)),
         ('contacts to quality, median / p99 / p99.9 [ms]',
          ' / '.join(f'{v:.2f}' for v in np.percentile(delays, [50, 99, 99.9]))),
         ('questions answered a second', f'{sum(c["answered"] for c in counts) / seconds:.0f}'),

@@ -9,9 +9,9 @@ remembered, and ends with code 1 when a promise of docs/reliability.md is broken
 does not depend on the speed of the machine; delays are counted in calm times only, a second away
 from all faults.
 
-Memory may grow by less than 1 MB from the first minute on when calm. Faults bring some fifty new
-processes, each of which the middleware remembers for a while: there it is the second half of the
-run that may not add 1 MB, once every kind of fault has been.
+Memory may grow by less than 1 MB from the first minute on when calm. With faults it is the second
+half of the run that may not add 1 MB, once every kind of fault has been: what is done for the first
+times loads code and takes memory that is kept for the next.
 """
 
 import argparse
@@ -28,7 +28,7 @@ from callers import start_callers
 from harness import start_audit, start_node
 import numpy as np
 from rig import start_feed, TASK
-from transports import dropped
+from transports import dropped, lost_words
 
 NAMESPACE = '/soak'
 RATE_HZ = 200.0
@@ -190,7 +190,7 @@ def rows(soak, windows):
         ('samples sent in calm times', sent),
         ('of these answered', answered),
         ('of these replaced by a newer one', sent - answered - soak.lost),
-        ('of these lost by the middleware', soak.lost),
+        ('of these lost by the middleware', lost_words(soak.lost)),
         ('failures in calm times', failures),
         ('contacts to quality, median / p99 / p99.9 / most [ms]',
          ' / '.join(f'{v:.2f}' for v in np.percentile(delays, [50, 99, 99.9, 100]))),

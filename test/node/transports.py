@@ -57,6 +57,11 @@ def udp_sockets(pid):
     return [row for row in rows if f'socket:[{row[9]}]' in own]
 
 
+def lost_words(count):
+    """Return what ``dropped`` found, for a table: of shared memory it knows nothing."""
+    return 'not counted: shared memory' if are_default() else str(count)
+
+
 def dropped(pid):
     """Return how many datagrams the sockets of a process had no room for."""
     return sum(int(row[12]) for row in udp_sockets(pid))
