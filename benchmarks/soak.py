@@ -10,8 +10,8 @@ does not depend on the speed of the machine; delays are counted in calm times on
 from all faults.
 
 Memory may grow by less than 1 MB from the first minute on when calm. With faults it is the second
-half of the run that may not add 1 MB, once every kind of fault has been: what is done for the first
-times loads code and takes memory that is kept for the next.
+half of the run that may not add 1 MB, once every kind of fault has been: what is done for the
+first times loads code and takes memory that is kept for the next.
 """
 
 import argparse
