@@ -71,7 +71,30 @@ class ContactSet(Sequence[Contact]):
         if k:
             self._check()
 
-    def _check(self) -> None:
+    def moved(self, positions: ArrayLike, rotations: ArrayLike) -> ContactSet:
+        """
+        Return the same contacts elsewhere; only their places are checked.
+
+        Parameters
+        ----------
+        positions : (k, 3) array_like [m]
+        rotations : (k, 3, 3) array_like
+
+        Raises
+        ------
+        InvalidContactError
+
+        """
+        contacts, k = object.__new__(ContactSet), len(self)
+        contacts.__dict__.update(
+            self.__dict__,
+            positions=checked(positions, (k, 3), 'positions', InvalidContactError),
+            rotations=checked(rotations, (k, 3, 3), 'rotations', InvalidContactError))
+        if k:
+            contacts._check_places()
+        return contacts
+
+    def _check_places(self) -> None:
         R = self.rotations
         skew = np.abs(R.transpose(0, 2, 1) @ R - IDENTITY)
         if skew.max() > ROTATION_TOLERANCE or np.linalg.det(R).min() < 0.0:
@@ -81,6 +104,9 @@ class ContactSet(Sequence[Contact]):
         if np.abs(self.positions).max() > FARTHEST:
             self._refuse(np.abs(self.positions).max(axis=1) > FARTHEST,
                          f'position must lie within {FARTHEST:g} m of the origin')
+
+    def _check(self) -> None:
+        self._check_places()
         if self.friction.min() < 0.0:
             self._refuse(self.friction < 0.0, 'friction must be at least 0')
         if self.torsional_friction.min() < 0.0:

@@ -27,9 +27,7 @@ class Follower:
     def forget(self):
         """Begin anew: the next forces may be any."""
         self.start = None    # Solution with a reserve
-        self._names = None   # of the contacts
-        self._forces = None  # (k, 4): force in object axes, moment about the normal
-        self._time = 0.0
+        self._published = None  # Grasp, forces (k, 4) in its contact frames, time [s]
 
     def settle(self, grasp, task, load, solution, rate, time_limit_s):
         """
@@ -58,18 +56,20 @@ class Follower:
         self.start = solution if solution.feasible and solution.center is not None else None
         if not solution.feasible:
             return solution, False
-        if rate == 0.0 or self._names != grasp.names:
+        if rate == 0.0 or self._published is None:
+            return solution, False
+        before, forces, then = self._published
+        if before.names != grasp.names:
             return solution, False
         last = np.concatenate([np.einsum(
-            'kji,kj->ki', grasp.rotations, self._forces[:, :3]), self._forces[:, 3:]], axis=1)
+            'kji,kjl,kl->ki', grasp.rotations, before.rotations, forces[:, :3]),
+            forces[:, 3:]], axis=1)
         followed = follow(
             build_problem(grasp, task, load), solution, last,
-            rate * (time.monotonic() - self._time), TimeLimit.of(time_limit_s))
+            rate * (time.monotonic() - then), TimeLimit.of(time_limit_s))
         return followed.solution, followed.limited
 
     def published(self, grasp, forces):
         """Remember forces (k, 4) that were just published, in the contact frames of a grasp."""
         if len(forces):
-            self._names, self._time = grasp.names, time.monotonic()
-            self._forces = np.concatenate(
-                [np.einsum('kij,kj->ki', grasp.rotations, forces[:, :3]), forces[:, 3:]], axis=1)
+            self._published = grasp, forces, time.monotonic()

@@ -13,14 +13,14 @@ sender: they may have waited in a queue. Task and load hold until they are repla
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 import time
 from typing import Any, cast
 
 from grasp_quality.arrays import Array
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.grasp import Grasp
-from grasp_quality.measures import slip_margin
+from grasp_quality.moving import moved
+from grasp_quality.node_scene import Scene
 from grasp_quality.node_settings import Settings
 from msg_adapters.contacts import contacts_from_array, contacts_from_poses
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
@@ -31,35 +31,10 @@ from msg_adapters.message_types import Framed, Stamp, Stamped, StampedWrench
 from msg_adapters.stamps import stamp_ns
 from msg_adapters.tasks import HeldLoad, HeldTask, NoFrame
 from msg_adapters.wrenches import to_wrench
-import numpy as np
 
 NOT_LOADED = (
     'no contact is loaded: no measured normal force, of the finger on the object, reaches '
     'min_contact_force')
-
-
-@dataclass(frozen=True, eq=False)
-class Scene:
-    """
-    Contacts of one instant.
-
-    Attributes
-    ----------
-    grasp : Grasp
-        Of the contacts that count as loaded.
-    forces : tuple of (4,) array or None
-        Measured local force of each, where there is a fresh one.
-    frame : str
-        Object frame.
-    stamp : builtin_interfaces.msg.Time
-        When they were sensed.
-
-    """
-
-    grasp: Grasp
-    forces: tuple[Array | None, ...]
-    frame: str
-    stamp: Stamp
 
 
 class Inputs:
@@ -200,6 +175,11 @@ class Inputs:
             raise InvalidMessageError(
                 f'contacts must number at most {settings.max_request_size} (parameter '
                 f'max_request_size), got {len(items)}')
+        last = self._read
+        if last is not None and last[1] is settings and len(last[2]) == len(items) \
+                and hasattr(message, 'poses') and hasattr(last[0], 'poses'):
+            return moved(last[2], contacts_from_poses(
+                message, settings.contact_defaults, transform, last[2].contacts)), frame
         contacts = read(message, settings.contact_defaults, transform)
         if not len(contacts):
             raise NoContactsError('the newest contact message holds no contacts')
@@ -233,18 +213,3 @@ class Inputs:
         since_arrival = (self._steady_ns() - arrival) * 1e-9
         stamp = stamp_ns(message.header.stamp)
         return since_arrival, (self._now_ns() - stamp) * 1e-9 if stamp else since_arrival
-
-
-def measured_margin(scene: Scene) -> float | None:
-    """
-    Smallest slip margin of the measured contacts, in [-1, 1]; None when none was measured.
-
-    A force outside its cone has a negative margin, without limit as the normal force goes to zero:
-    -1 stands for all that is further outside.
-
-    """
-    if all(force is None for force in scene.forces):
-        return None
-    measured = np.array([np.zeros(4) if f is None else f for f in scene.forces])
-    known = [f is not None for f in scene.forces]
-    return float(np.clip(slip_margin(scene.grasp, measured)[known], -1.0, 1.0).min())

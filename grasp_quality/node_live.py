@@ -13,8 +13,8 @@ import time
 from grasp_quality.governing import governing
 from grasp_quality.measures import evaluate
 from grasp_quality.node_follow import Follower
-from grasp_quality.node_inputs import measured_margin
 from grasp_quality.node_quantile import live_quantile
+from grasp_quality.node_scene import measured_margin
 from grasp_quality.problem import NO_WRENCH
 from grasp_quality.task import TaskCone, TaskWrench
 from grasp_quality_msgs.msg import GraspQuality, ResultCode

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from grasp_quality import evaluate, friction_cone, GraspQualityError, SolverError, TaskWrench
 from grasp_quality.governing import governing
 from grasp_quality.many import evaluate_many, Outcome
-from grasp_quality.node_inputs import measured_margin, Scene
+from grasp_quality.node_scene import measured_margin, Scene
 from grasp_quality.status import Status
 from grasp_quality_cli.bag_inputs import Sample
 from grasp_quality_cli.grasp_file import Task

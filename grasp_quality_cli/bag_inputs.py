@@ -12,7 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from grasp_quality.node_inputs import Inputs, Scene
+from grasp_quality.node_inputs import Inputs
+from grasp_quality.node_scene import Scene
 from grasp_quality.node_settings import Settings
 from grasp_quality.task import TaskWrench
 from grasp_quality_cli.bag_problems import Problems

@@ -7,7 +7,7 @@ Zero in a field of a ContactArray means the node's default; a PoseArray takes ev
 poses from the defaults. +z of each pose is the inward normal.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,10 +17,9 @@ from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidContactError
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.frames import Transform
-from msg_adapters.message_types import Contacts, Item, Poses
+from msg_adapters.message_types import Contacts, Item, Pose, Poses
 from msg_adapters.number_checks import checked_numbers, SMALLEST
-from msg_adapters.poses import pose_arrays
-import numpy as np
+from msg_adapters.poses import frames_of
 
 MODEL_DEFAULT = 0  # these are the constants of Contact.msg
 MODELS = {1: ContactModel.FPC, 2: ContactModel.PCWF, 3: ContactModel.SFCE}
@@ -52,7 +51,8 @@ class ContactDefaults:
 
 
 def contacts_from_poses(message: Poses, defaults: ContactDefaults,
-                        transform: Transform | None = None) -> ContactSet:
+                        transform: Transform | None = None,
+                        like: ContactSet | None = None) -> ContactSet:
     """
     Read a geometry_msgs/PoseArray.
 
@@ -64,6 +64,9 @@ def contacts_from_poses(message: Poses, defaults: ContactDefaults,
         Model, friction, caps and names, which poses do not carry.
     transform : Transform, optional
         Into the object frame.
+    like : ContactSet, optional
+        Of an earlier message of as many poses, read with the same defaults: all but the poses is
+        taken from it, which saves half of the time.
 
     Returns
     -------
@@ -75,6 +78,9 @@ def contacts_from_poses(message: Poses, defaults: ContactDefaults,
 
     """
     count = len(message.poses)
+    fields = [f'poses[{i}]' for i in range(count)]
+    if like is not None and len(like) == count:
+        return _refusing(like.moved, *_frames(message.poses, fields, transform))
     names = defaults.names or tuple(f'contact_{i}' for i in range(count))
     fingers = defaults.fingers or names
     if count and count != len(names):
@@ -82,9 +88,8 @@ def contacts_from_poses(message: Poses, defaults: ContactDefaults,
             f'poses must hold one pose for each of the {len(names)} contact_names '
             f'{list(names)}, got {count}: publish them all (contact_wrenches tell which are '
             'loaded), leave contact_names empty, or use contact_source contact_array')
-    poses = [pose_arrays(pose, f'poses[{i}]') for i, pose in enumerate(message.poses)]
-    return _contact_set(
-        poses, transform, models=[defaults.model] * count,
+    return _refusing(
+        ContactSet, *_frames(message.poses, fields, transform), models=[defaults.model] * count,
         friction=[defaults.friction] * count,
         torsional_friction=[defaults.torsional_friction] * count,
         max_normal_forces=[defaults.max_normal_force] * count,
@@ -110,23 +115,29 @@ def contacts_from_array(message: Contacts, defaults: ContactDefaults,
     def numbers(name: str, default: float) -> list[float]:
         return [_number(item, name, default, field) for field, item in items]
 
-    return _contact_set(
-        [pose_arrays(item.pose, f'{field}.pose') for field, item in items], transform,
-        models=[_model(item.model, defaults, field) for field, item in items],
+    frames = _frames([item.pose for _, item in items], [f'{field}.pose' for field, _ in items],
+                     transform)
+    return _refusing(
+        ContactSet, *frames, models=[_model(item.model, defaults, field) for field, item in items],
         friction=numbers('friction_coefficient', defaults.friction),
         torsional_friction=numbers('torsional_friction_coefficient', defaults.torsional_friction),
         max_normal_forces=numbers('max_normal_force', defaults.max_normal_force),
         names=names, fingers=[item.finger or name for name, (_, item) in zip(names, items)])
 
 
-def _contact_set(poses: Sequence[tuple[Array, Array]], transform: Transform | None,
-                 **fields: Any) -> ContactSet:
-    positions = np.array([position for position, _ in poses]).reshape(-1, 3)
-    rotations = np.array([rotation for _, rotation in poses]).reshape(-1, 3, 3)
+def _frames(poses: Sequence[Pose], names: Sequence[str], transform: Transform | None
+            ) -> tuple[Array, Array]:
+    """Positions (k, 3) [m] and rotations (k, 3, 3) of poses in the object frame."""
+    positions, rotations = frames_of(poses, names)
     if transform is not None:
         positions, rotations = positions @ transform.R.T + transform.p, transform.R @ rotations
+    return positions, rotations
+
+
+def _refusing(make: Callable[..., ContactSet], *arrays: Array, **fields: Any) -> ContactSet:
+    """Call what makes a ContactSet; what it refuses is the message's fault."""
     try:
-        return ContactSet(positions, rotations, **fields)
+        return make(*arrays, **fields)
     except InvalidContactError as exc:
         raise InvalidMessageError(str(exc)) from exc
 

@@ -1,16 +1,67 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""Poses: position and rotation matrix of a geometry_msgs/Pose, checked."""
+"""Poses: positions and rotation matrices of geometry_msgs/Pose messages, checked."""
 
+from collections.abc import Sequence
 import math
 
 from grasp_quality.arrays import Array
 from msg_adapters.errors import InvalidMessageError
 from msg_adapters.message_types import Pose, Quaternion
-from msg_adapters.number_checks import checked_numbers
+from msg_adapters.number_checks import checked_numbers, LARGEST
 import numpy as np
 
 QUATERNION_TOLERANCE = 1e-3  # of the norm, before it is made exact
+
+# R = 1 + sum over i, j of q_i q_j QUADRATIC[i, j] for a quaternion q = (x, y, z, w) of norm one
+QUADRATIC = np.zeros((4, 4, 3, 3))
+for _i, _j, _k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+    QUADRATIC[_i, _i, _j, _j] = QUADRATIC[_i, _i, _k, _k] = -2.0
+    QUADRATIC[_i, _j, _i, _j] = QUADRATIC[_i, _j, _j, _i] = 2.0
+    QUADRATIC[_i, 3, _k, _j], QUADRATIC[_i, 3, _j, _k] = 2.0, -2.0
+
+
+def frames_of(poses: Sequence[Pose], names: Sequence[str]) -> tuple[Array, Array]:
+    """
+    Read many geometry_msgs/Pose at once: much faster than one by one.
+
+    Parameters
+    ----------
+    poses : sequence of geometry_msgs.msg.Pose
+        Positions [m] and orientations of norm one.
+    names : sequence of str
+        Field name of each, for errors.
+
+    Returns
+    -------
+    (k, 3) array [m], (k, 3, 3) array
+        Positions and R_frame_pose.
+
+    Raises
+    ------
+    InvalidMessageError
+        For the first pose that ``pose_arrays`` refuses.
+
+    """
+    numbers = np.array([
+        (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
+        for p, q in ((pose.position, pose.orientation) for pose in poses)], float).reshape(-1, 7)
+    positions, quaternions = numbers[:, :3], numbers[:, 3:]
+    with np.errstate(over='ignore'):
+        norms = np.sqrt((quaternions * quaternions).sum(axis=1))
+    # so written that nan is refused too
+    if not ((np.abs(norms - 1.0) <= QUATERNION_TOLERANCE).all()
+            and (np.abs(positions) <= LARGEST).all()):
+        for pose, name in zip(poses, names):
+            pose_arrays(pose, name)
+    return positions, _rotations(quaternions / norms[:, None])
+
+
+def _rotations(quaternions: Array) -> Array:
+    """Return the rotation matrices (k, 3, 3) of quaternions (k, 4) of norm one."""
+    products = quaternions[:, :, None] * quaternions[:, None, :]
+    rotations: Array = products.reshape(-1, 16) @ QUADRATIC.reshape(16, 9) + np.eye(3).ravel()
+    return rotations.reshape(-1, 3, 3)
 
 
 def pose_arrays(pose: Pose, name: str) -> tuple[Array, Array]:
@@ -49,8 +100,5 @@ def rotation_matrix(quaternion: Quaternion, name: str) -> Array:
         raise InvalidMessageError(
             f'{name} must be a quaternion of norm 1, got ({x}, {y}, {z}, {w}) of norm {norm:g}: '
             'normalise it, the identity is (0, 0, 0, 1)')
-    x, y, z, w = x / norm, y / norm, z / norm, w / norm
-    return np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    rotation: Array = _rotations(np.array([[x, y, z, w]]) / norm)[0]
+    return rotation

@@ -30,7 +30,8 @@ from rosbags.typesys import get_typestore, Stores
 
 from grasp_quality import evaluate
 from grasp_quality.governing import governing
-from grasp_quality.node_inputs import Inputs, measured_margin
+from grasp_quality.node_inputs import Inputs
+from grasp_quality.node_scene import measured_margin
 from grasp_quality.node_parameters import Settings
 from msg_adapters.result_codes import error_code
 from msg_adapters.tasks import live_task, load_from
