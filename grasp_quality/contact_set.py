@@ -78,7 +78,9 @@ class ContactSet(Sequence[Contact]):
         Parameters
         ----------
         positions : (k, 3) array_like [m]
+            In the object frame.
         rotations : (k, 3, 3) array_like
+            R_object_contact.
 
         Raises
         ------

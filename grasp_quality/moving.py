@@ -23,6 +23,7 @@ def moved(grasp: Grasp, contacts: ContactSet) -> Grasp:
     Parameters
     ----------
     grasp : Grasp
+        Stays as it is.
     contacts : ContactSet
         From ``grasp.contacts.moved``: the same but for positions and rotations.
 

@@ -39,6 +39,7 @@ class LiveLoop:
         self._margin = margin
         self._follower = Follower()
         self._now = now
+        self._task = (None, None, None)  # message, settings, and what they say
 
     def evaluate(self):
         """Solve the newest contacts for the live task and publish the answer."""
@@ -115,14 +116,18 @@ class LiveLoop:
         return quality, (solution.forces, solution.cone_usage), load
 
     def _task_and_load(self, scene):
-        inputs, limit = self._inputs, self._settings().max_request_size
+        inputs, settings = self._inputs, self._settings()
         if inputs.task is None:
             raise InvalidMessageError(
                 'no task set: call ~/set_task, publish ~/task_wrench or set the parameter '
                 'task_wrench')
         # where the object is when its contacts are sensed, not when the task was sent
         transform = inputs.transform(inputs.task.header, scene.frame, scene.stamp)
-        task = live_task(inputs.task, transform, limit)
+        message, under, task = self._task
+        if transform is not None or message is not inputs.task or under is not settings:
+            task = live_task(inputs.task, transform, settings.max_request_size)
+            # a transform may be another one for every sample
+            self._task = (None if transform is not None else inputs.task, settings, task)
         if inputs.load is None:
             return task, None
         return task, load_from(

@@ -10,6 +10,7 @@ from grasp_quality_msgs.msg import Contact as ContactMsg, ContactArray
 from hypothesis import given, strategies
 from msg_adapters.contacts import ContactDefaults, contacts_from_array, contacts_from_poses
 from msg_adapters.errors import InvalidMessageError
+from msg_adapters.frames import Transform
 import numpy as np
 import pytest
 
@@ -42,6 +43,27 @@ def test_a_pose_array_takes_the_rest_from_the_defaults():
     assert (first.name, second.name) == ('contact_0', 'contact_1')
     assert (first.finger, second.finger) == ('contact_0', 'contact_1')
     assert second.position.tolist() == [1, 0, 0]
+
+
+@pytest.mark.parametrize('place', [None, Transform(np.eye(3)[[1, 2, 0]], np.array([1.0, 2, 3]))])
+def test_contacts_like_those_before_are_those_read_anew(place):
+    before, now = poses(), PoseArray(poses=[
+        pose((0.1 * i, 0.2, 0.3), Quaternion(x=0.6, w=0.8)) for i in range(2)])
+    like = contacts_from_poses(before, DEFAULTS)
+    for mine, other in zip(contacts_from_poses(now, DEFAULTS, place, like),
+                           contacts_from_poses(now, DEFAULTS, place), strict=True):
+        assert mine.name == other.name
+        assert mine.max_normal_force == other.max_normal_force
+        np.testing.assert_array_equal(mine.position, other.position)
+        np.testing.assert_array_equal(mine.rotation, other.rotation)
+    now.poses[1].position.y = 2e4
+    with pytest.raises(InvalidMessageError, match='contact 1 .* must lie within'):
+        contacts_from_poses(now, DEFAULTS, place, like)
+
+
+def test_contacts_like_others_of_another_number_are_read_anew():
+    contacts = contacts_from_poses(poses(3), DEFAULTS, like=contacts_from_poses(poses(), DEFAULTS))
+    assert contacts.names == ('contact_0', 'contact_1', 'contact_2')
 
 
 def test_defaults_are_those_of_the_parameters_of_the_node():

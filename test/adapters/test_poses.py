@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Poses: position and rotation, checked."""
 
+import re
+
 from adapter_messages import any_float, BAD_NUMBERS, EXACT, pose, quaternion_of, sizes
 from geometry_msgs.msg import Pose, Quaternion
 from hypothesis import assume, given, strategies
 from msg_adapters.errors import InvalidMessageError
-from msg_adapters.poses import pose_arrays, rotation_matrix
+from msg_adapters.poses import frames_of, pose_arrays, rotation_matrix
 import numpy as np
 import pytest
 
@@ -61,6 +63,23 @@ def test_a_bad_number_is_refused_by_field(part, axis, value):
     setattr(getattr(message, part), axis, value)
     with pytest.raises(InvalidMessageError, match=f'^poses.3..{part} must be'):
         pose_arrays(message, 'poses[3]')
+
+
+@given(strategies.lists(strategies.tuples(*[any_float] * 7), max_size=4))
+def test_many_poses_are_read_or_refused_like_each_of_them(rows):
+    messages = [pose(row[:3], Quaternion(**dict(zip('xyzw', row[3:])))) for row in rows]
+    names = [f'poses[{i}]' for i in range(len(rows))]
+    try:
+        each = [pose_arrays(message, name) for message, name in zip(messages, names)]
+    except InvalidMessageError as exc:
+        with pytest.raises(InvalidMessageError, match=f'^{re.escape(str(exc))}$'):
+            frames_of(messages, names)
+        return
+    positions, rotations = frames_of(messages, names)
+    assert positions.shape == (len(rows), 3)
+    for (position, rotation), p, R in zip(each, positions, rotations, strict=True):
+        np.testing.assert_array_equal(p, position)
+        np.testing.assert_allclose(R, rotation, atol=EXACT)
 
 
 @given(strategies.tuples(*[any_float] * 7))
