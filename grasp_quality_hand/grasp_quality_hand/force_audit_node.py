@@ -105,7 +105,7 @@ class ForceAuditNode(Node):
                 read: Callable[[Any, int], object]) -> None:
         def store(message: Any, sent_ns: int) -> None:
             try:
-                self.records.store(read(message, sent_ns), time.monotonic())
+                self.records.store(read(message, sent_ns), *_times(sent_ns))
             except Exception as exc:
                 self.records.count.violations += 1  # what cannot be read cannot be trusted
                 self._tell(f'{topic} could not be read: {type(exc).__name__}: {exc}')
@@ -183,11 +183,11 @@ class ForceAuditNode(Node):
         if event.node == self.target and self._settings is not None:
             changes = {p.name: parameter_value_to_python(p.value)
                        for p in event.changed_parameters if p.name in REQUIRED}
-            self._hold(dataclasses.replace(self._settings, **changes))
+            self._hold(dataclasses.replace(self._settings, **changes), sent_ns)
 
-    def _hold(self, settings: Settings) -> None:
+    def _hold(self, settings: Settings, sent_ns: int | None = None) -> None:
         self._settings = settings
-        self.records.store(settings, time.monotonic())
+        self.records.store(settings, *_times(sent_ns))
 
     def summary(self) -> str:
         """Say in one line what was seen."""
@@ -207,6 +207,12 @@ class ForceAuditNode(Node):
         message = DiagnosticArray(status=[status])
         message.header.stamp = self.get_clock().now().to_msg()
         self._diagnostics.publish(message)
+
+
+def _times(sent_ns: int | None) -> tuple[float, float]:
+    """Return now, and when something was sent, both by the steady clock [s]."""
+    now_s = time.monotonic()
+    return now_s, now_s if sent_ns is None else now_s - max(0.0, time.time() - 1e-9 * sent_ns)
 
 
 def main(args: list[str] | None = None) -> int:

@@ -5,7 +5,8 @@ What a quality node received and published, put together again by stamp and judg
 
 Topics arrive in any order, one stamp may be evaluated more than once (a new task), and parameters
 change between a sample and its answer. So a force set is judged ``GRACE_S`` after it came: it must
-pass with one combination of contacts and quality of its own stamp and parameters of its moment.
+pass with one combination of contacts and quality of its own stamp and parameters of the moment at
+which it was sent: on a busy machine it may be read long after they were replaced.
 What cannot be judged because a part never came (best effort topics may lose one) is counted apart.
 """
 
@@ -26,6 +27,7 @@ STAMPED = (Contacts, Forces, LocalWrench, Quality)
 GRACE_S = 1.0    # after which all that belongs to a message has come
 PATIENCE_S = 20.0  # for the first parameters
 MEMORY_S = 4.0   # parts older than this are forgotten
+SETTINGS_MEMORY_S = 60.0  # and parameters that were replaced so long ago
 MOST_TRIED = 200  # combinations of parts of one stamp
 MOST = 20_000    # parts of one kind that are kept, whatever their age
 
@@ -48,15 +50,23 @@ class ForceRecords:
         self._kept: dict[type, deque[tuple[float, object]]] = {}
         self._stamped: dict[tuple[type, int], list[object]] = {}  # the same by kind and stamp
         self._alphas: Counter[float] = Counter()  # of the OPTIMAL qualities among them
-        self._waiting: deque[tuple[float, object]] = deque()
+        self._waiting: deque[tuple[float, float, object]] = deque()  # came, sent, what
         self.count = Count()
 
-    def store(self, part: object, now_s: float) -> None:
-        """Keep a part (a class of audit_parts, or a float for alpha) with its arrival time."""
+    def store(self, part: object, now_s: float, sent_s: float | None = None) -> None:
+        """
+        Keep a part (a class of audit_parts, or a float for alpha).
+
+        ``now_s`` is the time of its arrival, ``sent_s`` that of its sending by the same clock.
+
+        """
+        sent_s = now_s if sent_s is None else sent_s
         kept = self._kept.setdefault(type(part), deque())
-        if isinstance(part, Settings) and kept and kept[-1][1] == part:
-            kept.pop()
-        kept.append((now_s, part))
+        if isinstance(part, Settings):
+            if not kept or kept[-1][1] != part:
+                kept.append((sent_s, part))
+        else:
+            kept.append((now_s, part))
         if isinstance(part, STAMPED):
             self._stamped.setdefault((type(part), part.stamp), []).append(part)
         if isinstance(part, Quality) and part.optimal:
@@ -65,7 +75,7 @@ class ForceRecords:
             self._forget(kept)
         self._patience_s = min(self._patience_s, now_s + PATIENCE_S)
         if isinstance(part, (Forces, Quality, LocalWrench, float)):
-            self._waiting.append((now_s, part))
+            self._waiting.append((now_s, sent_s, part))
 
     def judge(self, now_s: float) -> list[str]:
         """Judge all that has waited long enough, and for the parameters; return what is wrong."""
@@ -73,10 +83,10 @@ class ForceRecords:
         if not self._kept.get(Settings) and now_s < self._patience_s:
             return said
         while self._waiting and self._waiting[0][0] <= now_s - GRACE_S:
-            arrived_s, part = self._waiting.popleft()
-            said += self._judge(arrived_s, part)
-        for kept in self._kept.values():
-            while len(kept) > 1 and kept[0][0] < now_s - MEMORY_S:  # the newest holds on
+            said += self._judge(*self._waiting.popleft())
+        for kind, kept in self._kept.items():
+            ended, memory = (1, SETTINGS_MEMORY_S) if kind is Settings else (0, MEMORY_S)
+            while len(kept) > 1 and kept[ended][0] < now_s - memory:  # the newest holds on
                 self._forget(kept)
         self.count.violations += len(said)
         return said
@@ -91,7 +101,7 @@ class ForceRecords:
         if isinstance(part, Quality) and part.optimal:
             self._alphas -= Counter([part.alpha])
 
-    def _judge(self, arrived_s: float, part: object) -> list[str]:
+    def _judge(self, arrived_s: float, sent_s: float, part: object) -> list[str]:
         if isinstance(part, Quality):
             numbers = (part.alpha, *part.others)
             if not np.isfinite(numbers).all():
@@ -106,9 +116,9 @@ class ForceRecords:
                 return self._leave('quality')  # not listening to it yet, or lost
             return [f'alpha {part:.9g} stands in no OPTIMAL quality']
         elif isinstance(part, Forces):
-            return self._judge_forces(arrived_s, part) if part.forces else []
+            return self._judge_forces(sent_s, part) if part.forces else []
         elif isinstance(part, LocalWrench) and part.wrench.any():
-            return self._judge_local(arrived_s, part)
+            return self._judge_local(sent_s, part)
         return []
 
     def _parts(self, kind: type[Part]) -> list[Part]:
@@ -117,14 +127,14 @@ class ForceRecords:
     def _of_stamp(self, kind: type[Part], stamp: int) -> list[Part]:
         return [p for p in self._stamped.get((kind, stamp), ()) if isinstance(p, kind)]
 
-    def _settings(self, arrived_s: float) -> list[Settings]:
-        """Return those in force at some time from two grace times before to one after."""
+    def _settings(self, sent_s: float) -> list[Settings]:
+        """Return those in force at some time from two grace times before on."""
         ends = [since_s for since_s, _ in self._kept.get(Settings, ())][1:] + [np.inf]
         return list({settings: None for end_s, settings in zip(ends, self._parts(Settings))
-                     if end_s >= arrived_s - 2 * GRACE_S})
+                     if end_s >= sent_s - 2 * GRACE_S})
 
-    def _judge_forces(self, arrived_s: float, part: Forces) -> list[str]:
-        settings = self._settings(arrived_s)
+    def _judge_forces(self, sent_s: float, part: Forces) -> list[str]:
+        settings = self._settings(sent_s)
         contacts = list({  # a frozen sensor says the same again and again
             c.content: c for c in self._of_stamp(Contacts, part.stamp)}.values())
         qualities = list({
@@ -155,10 +165,10 @@ class ForceRecords:
         self.count.unjudged[missing] = self.count.unjudged.get(missing, 0) + 1
         return []
 
-    def _judge_local(self, arrived_s: float, part: LocalWrench) -> list[str]:
+    def _judge_local(self, sent_s: float, part: LocalWrench) -> list[str]:
         sets = [forces for forces in self._of_stamp(Forces, part.stamp) if not forces.are_holding]
         contacts = self._of_stamp(Contacts, part.stamp)
-        settings = self._settings(arrived_s)
+        settings = self._settings(sent_s)
         for name, found in (('forces', sets), ('contacts', contacts), ('parameters', settings)):
             if not found:
                 return self._leave(name)

@@ -97,6 +97,31 @@ def test_parameters_of_the_moment_count_whichever_came_first():
     assert said == []
 
 
+@pytest.mark.parametrize('late_s', [0.0, 20.0])
+def test_what_is_read_late_is_judged_by_the_parameters_of_its_sending(late_s):
+    records = ForceRecords()
+    records.store(SETTINGS, 0.0)
+    for asked_s in range(100):  # the node was asked time and again
+        records.store(SETTINGS, float(asked_s))
+    records.store(changed(SETTINGS, friction_coefficient=0.1), 100.0)
+    said = []
+    for second in range(30):
+        if second == late_s:
+            for part in (CONTACTS, QUALITY, FORCES):
+                records.store(part, 100.1 + late_s, 99.9)
+        said += records.judge(100.2 + second)
+    assert said == [] and records.count.judged == 1
+
+
+def test_parameters_of_long_before_excuse_nothing():
+    records = ForceRecords()
+    records.store(SETTINGS, 0.0)
+    records.store(changed(SETTINGS, friction_coefficient=0.1), 10.0)
+    for part in (CONTACTS, QUALITY, FORCES):
+        records.store(part, 13.0)
+    assert records.judge(15.0)
+
+
 def test_another_frame_needs_a_transform_that_is_not_known_here():
     _, count = judged(*[changed(CONTACTS, frame='world') if p is CONTACTS else p for p in ALL])
     assert count.unjudged == {'transform': 1}
