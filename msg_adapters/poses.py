@@ -47,7 +47,7 @@ def frames_of(poses: Sequence[Pose], names: Sequence[str]) -> tuple[Array, Array
         (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
         for p, q in ((pose.position, pose.orientation) for pose in poses)], float).reshape(-1, 7)
     positions, quaternions = numbers[:, :3], numbers[:, 3:]
-    with np.errstate(over='ignore'):
+    with np.errstate(over='ignore', invalid='ignore'):  # huge numbers; a NaN that signals
         norms = np.sqrt((quaternions * quaternions).sum(axis=1))
     # so written that nan is refused too
     if not ((np.abs(norms - 1.0) <= QUATERNION_TOLERANCE).all()

@@ -3,6 +3,7 @@
 """Poses: position and rotation, checked."""
 
 import re
+import struct
 
 from adapter_messages import any_float, BAD_NUMBERS, EXACT, pose, quaternion_of, sizes
 from geometry_msgs.msg import Pose, Quaternion
@@ -80,6 +81,16 @@ def test_many_poses_are_read_or_refused_like_each_of_them(rows):
     for (position, rotation), p, R in zip(each, positions, rotations, strict=True):
         np.testing.assert_array_equal(p, position)
         np.testing.assert_allclose(R, rotation, atol=EXACT)
+
+
+@pytest.mark.filterwarnings('error')
+@pytest.mark.parametrize('bits', [0x7FF0000000000001, 0x7FF8000000000000, 0x7FEFFFFFFFFFFFFF])
+@pytest.mark.parametrize('place', range(7))
+def test_numbers_of_any_bits_are_refused_quietly(bits, place):
+    row = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    row[place], = struct.unpack('<d', struct.pack('<Q', bits))
+    with pytest.raises(InvalidMessageError, match='^a.(position|orientation) must be'):
+        frames_of([pose(row[:3], Quaternion(**dict(zip('xyzw', row[3:]))))], ['a'])
 
 
 @given(strategies.tuples(*[any_float] * 7))
