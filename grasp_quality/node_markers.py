@@ -16,8 +16,8 @@ from typing import Any
 from builtin_interfaces.msg import Duration
 from grasp_quality.exceptions import GraspQualityError
 from grasp_quality.grasp import Grasp
-from grasp_quality.node_scene import Scene
 from grasp_quality.node_parameters import Settings
+from grasp_quality.node_scene import Scene
 from grasp_quality.sliced_map import FIRST_SLICE, SlicedMap
 from grasp_quality_msgs.msg import ForceMap, GraspQuality, ResultCode
 from msg_adapters import markers, qos
