@@ -23,6 +23,7 @@ from harness import Process, start_node
 from rig import kill, start_feed, TASK
 import transports
 
+SETTLED_S = 3.0
 LEASE_S = 30.0  # Fast DDS forgets a silent participant after 20 s
 EVERY = 10      # processes, from one line to the next
 
@@ -32,7 +33,7 @@ def storm(node, namespace, count, logs, *, clients):
     pid = node.popen.pid
     node.until_it_says('active')
     feed = start_feed(logs / 'feed.txt', namespace, '--grasp', 'EIGHT', '--rate', '100')
-    time.sleep(3.0)
+    time.sleep(SETTLED_S)
     rows = [('before', *resident_mb(pid))]
     for i in range(count // 2):
         publisher = start_feed(logs / f'feed_{i}.txt', namespace, '--grasp', 'EIGHT')
@@ -57,13 +58,13 @@ def main():
     machine = document.machine()
     logs = Path(tempfile.mkdtemp())
     print(f'{transports.words()}; {machine}')
-    for name, start, clients in (
-            ('the node', lambda: start_node(
-                logs / 'node.txt', '/storm', max_contact_age='0.1', task_wrench=TASK), 3),
-            ('an echo in rclpy', lambda: Process(
+    for name, namespace, clients, start in (
+            ('the node', '/storm', 3, lambda: start_node(
+                logs / 'node.txt', '/storm', max_contact_age='0.1', task_wrench=TASK)),
+            ('an echo in rclpy', '/echo', 1, lambda: Process(
                 [sys.executable, '-m', 'benchmarks.node_echo', '/echo'], logs / 'echo.txt',
-                cwd=ROOT), 1)):
-        rows = storm(start(), '/storm' if clients == 3 else '/echo', count, logs, clients=clients)
+                cwd=ROOT))):
+        rows = storm(start(), namespace, count, logs, clients=clients)
         print(f'\n{name}\n')
         print(document.table(
             ['', 'its own [MB]', 'pages of files [MB]', 'shared [MB]'],

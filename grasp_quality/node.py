@@ -52,6 +52,7 @@ def main(args=None):
         rclpy.try_shutdown()
         for number in (signal.SIGINT, signal.SIGTERM):  # one more while Python ends is no crash
             signal.signal(number, signal.SIG_IGN)
+        _let_go_of_output()
     return 0
 
 
@@ -60,6 +61,15 @@ def _say(text):
         print(text, file=sys.stderr, flush=True)
     except OSError:  # whoever listens is gone, or the disk is full
         pass
+
+
+def _let_go_of_output():
+    """Drop what cannot be printed: Python would try again at its end, and exit with code 120."""
+    for name in ('stdout', 'stderr'):
+        try:
+            getattr(sys, name).flush()
+        except OSError:
+            setattr(sys, name, None)
 
 
 def _init(rclpy, args, signals):

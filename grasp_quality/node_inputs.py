@@ -169,23 +169,31 @@ class Inputs:
         settings = self._settings()
         frame = object_frame_of(message.header.frame_id, settings.object_frame)
         transform = self.transform(message.header, frame, message.header.stamp)
-        items, read = (message.poses, contacts_from_poses) if hasattr(message, 'poses') else (
-            message.contacts, contacts_from_array)
+        are_poses = hasattr(message, 'poses')
+        items = message.poses if are_poses else message.contacts
         if len(items) > settings.max_request_size:
             raise InvalidMessageError(
                 f'contacts must number at most {settings.max_request_size} (parameter '
                 f'max_request_size), got {len(items)}')
-        last = self._read
-        if last is not None and last[1] is settings and len(last[2]) == len(items) \
-                and hasattr(message, 'poses') and hasattr(last[0], 'poses'):
-            return moved(last[2], contacts_from_poses(
-                message, settings.contact_defaults, transform, last[2].contacts)), frame
+        before = self._posed(settings, len(items)) if are_poses else None
+        if before is not None:
+            return moved(before, contacts_from_poses(
+                message, settings.contact_defaults, transform, before.contacts)), frame
+        read = contacts_from_poses if are_poses else contacts_from_array
         contacts = read(message, settings.contact_defaults, transform)
         if not len(contacts):
             raise NoContactsError('the newest contact message holds no contacts')
-        limits = None if hasattr(message, 'poses') else joint_limits_from(
+        limits = None if are_poses else joint_limits_from(
             message, contacts, transform, settings.max_request_size)
         return Grasp(contacts, settings.force_bound, limits), frame
+
+    def _posed(self, settings: Settings, count: int) -> Grasp | None:
+        """Grasp of the last poses read, if they were as many and under the same settings."""
+        if self._read is None:
+            return None
+        message, under, grasp, _ = self._read
+        fits = under is settings and len(grasp) == count and hasattr(message, 'poses')
+        return grasp if fits else None
 
     def transform(self, header: Framed, frame: str, stamp: Stamp) -> Transform | None:
         """Transform from a header's frame to the object frame at a time; None for the identity."""

@@ -66,7 +66,7 @@ def contacts_from_poses(message: Poses, defaults: ContactDefaults,
         Into the object frame.
     like : ContactSet, optional
         Of an earlier message of as many poses, read with the same defaults: all but the poses is
-        taken from it, which saves half of the time.
+        taken from it, which saves time.
 
     Returns
     -------

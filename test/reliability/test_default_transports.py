@@ -22,7 +22,8 @@ LONGEST_S = 600.0
 
 
 @pytest.mark.parametrize('name', [
-    '../node/test_transports.py', 'test_publishers.py', 'test_clients_killed.py'])
+    '../node/test_transports.py', 'test_publishers.py', 'test_restart_under_load.py',
+    'test_clients_killed.py'])
 def test_what_is_promised_holds_with_shared_memory(name):
     done = subprocess.run(
         [sys.executable, '-m', 'pytest', '-q', '-p', 'no:cacheprovider', HERE / name],

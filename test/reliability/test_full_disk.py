@@ -8,6 +8,7 @@ stderr fails with "no space left on device".
 """
 
 from pathlib import Path
+import subprocess
 import sys
 
 from ament_index_python.packages import get_package_prefix
@@ -48,3 +49,11 @@ def test_the_node_goes_on_when_nothing_can_be_logged(tmp_path, log_dir):
     finally:
         client.close()
         process.popen.kill()
+
+
+@pytest.mark.parametrize('ending, code', [
+    ('', 120), ('from grasp_quality import node; node._let_go_of_output()', 0)])
+def test_what_cannot_be_printed_does_not_decide_the_exit_code(ending, code):
+    done = subprocess.run([sys.executable, HERE / 'full_disk.py', sys.executable, '-c',
+                           f'print("left over"); {ending}'], check=False)
+    assert done.returncode == code

@@ -27,17 +27,17 @@ def test_the_next_process_takes_over(start, tmp_path):
     record.check(MAX_AGE_S)
     record.forget()
     joiner = Client(node.namespace)
+    born_ns = stamp_ns(joiner.now())  # before the node can answer: to discover it takes longer
     try:
         node.process = start_node(tmp_path / 'second.txt', node.namespace, **PARAMETERS)
         late = Record(joiner)
-        born_ns = stamp_ns(joiner.now())
         node.process.until_it_says('active')
         late.until_answers(20)
         record.until_answers(20)
         for heard in (record, late):
             heard.check(MAX_AGE_S)
-            assert all(stamp_ns(m.header.stamp) > born_ns - 1e9 * MAX_AGE_S
-                       for m in heard.optimal())
+            oldest_ns = min(stamp_ns(m.header.stamp) for m in heard.optimal())
+            assert oldest_ns > born_ns - 1e9 * MAX_AGE_S
     finally:
         joiner.close()
     callers.until_it_says('recovered')
