@@ -12,4 +12,5 @@ resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
 full = os.open('/dev/full', os.O_WRONLY)
 os.dup2(full, 1)
 os.dup2(full, 2)
+os.environ.pop('PYTHONUNBUFFERED', None)  # it hides what is left over at the end
 os.execv(sys.argv[1], sys.argv[1:])  # noqa: S606
