@@ -20,6 +20,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PoseArray, WrenchStamped
 from grasp_quality_hand import audit_messages
 from grasp_quality_hand.audit_parts import Forces, Settings
+from grasp_quality_hand.audit_sequence import Sequence
 from grasp_quality_hand.force_records import ForceRecords
 from grasp_quality_msgs.msg import ContactArray, ContactForceArray, GraspQuality
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent
@@ -103,16 +104,20 @@ class ForceAuditNode(Node):
 
     def _listen(self, kind: Any, topic: str, profile: QoSProfile,
                 read: Callable[[Any, int], object]) -> None:
-        def store(message: Any, sent_ns: int) -> None:
+        sequence = Sequence()
+
+        def store(message: Any, sent_ns: int, number: int | None) -> None:
+            now_s, sent_s = _times(sent_ns)
+            lost_since_s = sequence.lost_since(number, sent_s)
             try:
-                self.records.store(read(message, sent_ns), *_times(sent_ns))
+                self.records.store(read(message, sent_ns), now_s, sent_s, lost_since_s)
             except Exception as exc:
                 self.records.count.violations += 1  # what cannot be read cannot be trusted
                 self._tell(f'{topic} could not be read: {type(exc).__name__}: {exc}')
         self._take_from(kind, f'{self.target}/{topic}', profile, store)
 
     def _take_from(self, kind: Any, topic: str, profile: QoSProfile,
-                   receive: Callable[[Any, int], object]) -> None:
+                   receive: Callable[[Any, int, int | None], object]) -> None:
         subscription = self.create_subscription(
             kind, topic, lambda message: None, profile, callback_group=self._by_hand)
 
@@ -120,7 +125,8 @@ class ForceAuditNode(Node):
             with subscription.handle:
                 taken = subscription.handle.take_message(kind, False)
             if taken is not None:
-                receive(taken[0], taken[1]['source_timestamp'])
+                receive(taken[0], taken[1]['source_timestamp'],
+                        taken[1]['publication_sequence_number'])
             return taken is not None
         self._takes.append(take)
 
@@ -176,7 +182,7 @@ class ForceAuditNode(Node):
             self._asked = {names: self._parameter_client.call_async(
                 GetParameters.Request(names=names)) for names in (REQUIRED, *zip(UNSET))}
 
-    def _change(self, event: ParameterEvent, sent_ns: int) -> None:
+    def _change(self, event: ParameterEvent, sent_ns: int, number: int | None) -> None:
         """Note each change of parameters as it is made: many may lie between two questions."""
         if event.node == self.target:
             self._changed_s = time.monotonic()

@@ -8,6 +8,7 @@ change between a sample and its answer. So a force set is judged ``GRACE_S`` aft
 pass with one combination of contacts and quality of its own stamp and parameters of the moment at
 which it was sent: on a busy machine it may be read long after they were replaced.
 What cannot be judged because a part never came (best effort topics may lose one) is counted apart.
+So is an objection that rests on a quality not seen, within ``GRACE_S`` of qualities known to be lost.
 """
 
 from collections import Counter, deque
@@ -50,14 +51,17 @@ class ForceRecords:
         self._kept: dict[type, deque[tuple[float, object]]] = {}
         self._stamped: dict[tuple[type, int], list[object]] = {}  # the same by kind and stamp
         self._alphas: Counter[float] = Counter()  # of the OPTIMAL qualities among them
+        self._lost: deque[tuple[float, float]] = deque()  # times between which qualities were
         self._waiting: deque[tuple[float, float, object]] = deque()  # came, sent, what
         self.count = Count()
 
-    def store(self, part: object, now_s: float, sent_s: float | None = None) -> None:
+    def store(self, part: object, now_s: float, sent_s: float | None = None,
+              lost_since_s: float | None = None) -> None:
         """
         Keep a part (a class of audit_parts, or a float for alpha).
 
-        ``now_s`` is the time of its arrival, ``sent_s`` that of its sending by the same clock.
+        ``now_s`` is the time of its arrival, ``sent_s`` that of its sending by the same clock, and
+        from ``lost_since_s`` on others of its kind were sent and did not come.
 
         """
         sent_s = now_s if sent_s is None else sent_s
@@ -71,6 +75,8 @@ class ForceRecords:
             self._stamped.setdefault((type(part), part.stamp), []).append(part)
         if isinstance(part, Quality) and part.optimal:
             self._alphas[part.alpha] += 1
+        if isinstance(part, Quality) and lost_since_s is not None:
+            self._lost.append((lost_since_s, sent_s))
         if len(kept) > MOST:
             self._forget(kept)
         self._patience_s = min(self._patience_s, now_s + PATIENCE_S)
@@ -88,6 +94,8 @@ class ForceRecords:
             ended, memory = (1, SETTINGS_MEMORY_S) if kind is Settings else (0, MEMORY_S)
             while len(kept) > 1 and kept[ended][0] < now_s - memory:  # the newest holds on
                 self._forget(kept)
+        while self._lost and self._lost[0][1] < now_s - SETTINGS_MEMORY_S:
+            self._lost.popleft()
         self.count.violations += len(said)
         return said
 
@@ -111,8 +119,9 @@ class ForceRecords:
         elif isinstance(part, float):
             if part == 0.0 or part in self._alphas:
                 return []
-            if not any(abs(since_s - arrived_s) <= GRACE_S
-                       for since_s, _ in self._kept.get(Quality, ())):
+            if self._may_be_lost(sent_s) or not any(
+                    abs(since_s - arrived_s) <= GRACE_S
+                    for since_s, _ in self._kept.get(Quality, ())):
                 return self._leave('quality')  # not listening to it yet, or lost
             return [f'alpha {part:.9g} stands in no OPTIMAL quality']
         elif isinstance(part, Forces):
@@ -133,6 +142,11 @@ class ForceRecords:
         return list({settings: None for end_s, settings in zip(ends, self._parts(Settings))
                      if end_s >= sent_s - 2 * GRACE_S})
 
+    def _may_be_lost(self, sent_s: float) -> bool:
+        """Tell whether qualities sent about then are known not to have come."""
+        return any(since_s <= sent_s + GRACE_S and sent_s - GRACE_S <= until_s
+                   for since_s, until_s in self._lost)
+
     def _judge_forces(self, sent_s: float, part: Forces) -> list[str]:
         settings = self._settings(sent_s)
         contacts = list({  # a frozen sensor says the same again and again
@@ -142,7 +156,8 @@ class ForceRecords:
         in_frame = [c for c in contacts if c.frame in ('', part.frame)]
         if not all(np.isfinite(force.wrench).all() for force in part.forces):
             return [f'forces of stamp {part.stamp} are not finite']
-        if qualities and not any(quality.optimal for quality in qualities):
+        if qualities and not any(quality.optimal for quality in qualities) \
+                and not self._may_be_lost(sent_s):
             return [f'forces of stamp {part.stamp}: the quality beside them is not OPTIMAL']
         for name, found in (('parameters', settings), ('contacts', contacts),
                             ('quality', qualities), ('transform', in_frame)):
@@ -158,6 +173,10 @@ class ForceRecords:
                 break
         if best and next(tried, None):  # one stamp for everything, as when nothing is stamped
             return self._leave('stamp of its own')
+        if best and self._may_be_lost(sent_s) and not all(
+                _wrong(part, received, None, own, self._allowance_s)
+                for received, own in itertools.product(in_frame, settings)):
+            return self._leave('quality')
         self.count.judged += 1
         return [f'forces of stamp {part.stamp}: {text}' for text in best or ()]
 
@@ -183,10 +202,11 @@ class ForceRecords:
         return [f'optimal_wrenches/{part.name} of stamp {part.stamp} is not the force beside it']
 
 
-def _wrong(part: Forces, contacts: Contacts, quality: Quality, settings: Settings,
+def _wrong(part: Forces, contacts: Contacts, quality: Quality | None, settings: Settings,
            allowance_s: float) -> list[str]:
+    """Tell what is wrong with forces that belong to these parts; None: any quality will do."""
     said = []
-    if not quality.optimal:
+    if quality is not None and not quality.optimal:
         said.append('the quality beside them is not OPTIMAL')
     if part.age_s is not None and part.age_s > settings.max_contact_age + allowance_s:
         said.append(f'sent {part.age_s:.4f} s after their contacts, max_contact_age is '
@@ -195,6 +215,8 @@ def _wrong(part: Forces, contacts: Contacts, quality: Quality, settings: Setting
     said += broken_forces(part.forces, limits, settings.force_bound)
     if said:
         return said
-    alpha = 0.0 if part.are_holding else quality.alpha
     said = broken_joints(part.forces, joints_of(contacts, list(limits)))
+    if quality is None:
+        return said
+    alpha = 0.0 if part.are_holding else quality.alpha
     return said + broken_balance(part.forces, limits, alpha * quality.task - quality.load)

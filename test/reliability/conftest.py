@@ -5,38 +5,11 @@
 from pathlib import Path
 import signal
 import sys
-import tempfile
 
 sys.path.insert(0, str(Path(__file__).parents[1] / 'node'))
 
 from node_fixtures import begun_nodes, ros_log_dir, start  # noqa: E402, F401
 import pytest  # noqa: E402
-
-
-SOAK = ('-m', 'benchmarks.soak', '--seconds', '120', '--age-allowance', '0.5')
-_begun = []
-
-
-def pytest_collection_finish(session):
-    """Start the soak as soon as it is known to be wanted: it runs beside the tests before it."""
-    if any(item.path.name == 'test_soak.py' for item in session.items) \
-            and not session.config.option.collectonly:
-        from harness import Process
-        log = Path(tempfile.mkdtemp()) / 'soak.txt'
-        _begun.append(Process([sys.executable, *SOAK], log, cwd=Path(__file__).parents[2]))
-
-
-def pytest_sessionfinish():
-    """End what nobody waited for."""
-    for process in _begun:
-        if process.popen.poll() is None:
-            process.end()
-
-
-@pytest.fixture
-def soak():
-    """Return the process of the soak."""
-    return _begun[0]
 
 
 @pytest.fixture(scope='session')
