@@ -18,7 +18,7 @@ help:
 	@echo 'make setup   make .venv (ROS included, where there is none) and build the packages'
 	@echo 'make demo    simulated hand and node, questions, pictures in build/demo/'
 	@echo '             (DEMO_FLAGS=--keep runs until Ctrl-C)'
-	@echo 'make test    all tests, two files at a time (TEST_FLAGS goes to pytest)'
+	@echo 'make test    all tests (TEST_FLAGS goes to pytest)'
 	@echo 'make lint    style of the code'
 	@echo 'make coverage  branch coverage of the tests (TEST_FLAGS goes to pytest)'
 	@echo 'make bench   the figures of docs/performance.md (BENCH_FLAGS goes to it)'
@@ -37,7 +37,7 @@ demo: setup
 	@. ./env.sh && exec install/grasp_quality_hand/lib/grasp_quality_hand/demo $(DEMO_FLAGS)
 
 test: setup
-	@. ./env.sh && exec python -m pytest -n 2 --dist loadfile test grasp_quality_hand/test $(TEST_FLAGS)
+	@. ./env.sh && exec scripts/test.sh $(TEST_FLAGS)
 
 lint: setup
 	@. ./env.sh && exec scripts/lint.sh

@@ -12,6 +12,13 @@ from node_fixtures import begun_nodes, ros_log_dir, start  # noqa: E402, F401
 import pytest  # noqa: E402
 
 
+def pytest_collection_modifyitems(items):
+    """Keep other tests from running beside these, but for the soak."""
+    for item in items:
+        if item.path.parent == Path(__file__).parent and item.path.name != 'test_soak.py':
+            item.add_marker(pytest.mark.alone)
+
+
 @pytest.fixture(scope='session')
 def hand(tmp_path_factory, ros_log_dir):  # noqa: F811
     """Return a node with its client, its auditor and all that it says."""

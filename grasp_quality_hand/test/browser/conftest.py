@@ -29,7 +29,7 @@ def browser_files():
     return found
 
 
-@pytest.fixture(scope='session')
+@pytest.fixture(scope='module')  # it draws as long as it is there
 def browser(browser_files, tmp_path_factory):
     """Start Chromium with software rendering."""
     from page import open_browser

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+
+# All tests; arguments go to pytest. Two files at a time first, because most tests of nodes wait;
+# then, one after the other, those that need the machine for themselves (marker "alone").
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+nothing=5 # pytest's exit code where arguments leave no test
+
+run() {
+    python -m pytest "$@"
+    local code=$?
+    [ $code -eq $nothing ] || chosen=yes
+    [ $code -eq 0 ] || [ $code -eq $nothing ] || failed=$code
+}
+
+chosen= failed=0
+run -n 2 --dist loadfile -m 'not alone' grasp_quality_hand/test test "$@"
+run -m alone test grasp_quality_hand/test "$@"
+[ -n "$chosen" ] || { echo 'error: no test was chosen' >&2; exit $nothing; }
+exit $failed
