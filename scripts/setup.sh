@@ -34,6 +34,32 @@ fi
 check_python "$python"
 check_compilers
 
+build() { # colcon runs setup.py with its own interpreter, which the executables then start with
+    "$venv/bin/python" "$(command -v colcon)" build --symlink-install "$@" \
+        --cmake-args -DPython3_EXECUTABLE="$venv/bin/python" -DBUILD_TESTING=OFF
+}
+
+build_messages() { # where the wheels are; in a shell of its own
+    . "$venv/bin/activate"
+    . "$venv/setup.bash"
+    build --packages-select grasp_quality_msgs
+}
+
+build_all() {
+    catch_up
+    head_start compile
+    build
+}
+
+compile() {
+    "$venv/bin/python" -m grasp_quality.warm_up
+}
+
+compile_all() {
+    catch_up
+    compile
+}
+
 wanted=$(venv_made_of | sha256sum)
 if [ "$wanted" != "$(cat "$venv/stamp" 2>/dev/null)" ]; then
     rm -rf "$venv" install build/grasp_quality build/grasp_quality_{msgs,hand}
@@ -43,11 +69,6 @@ fi
 
 PYTHONPATH=grasp_quality_hand${PYTHONPATH:+:$PYTHONPATH} must "D'Claw hand model" \
     "$venv/bin/python" -m grasp_quality_hand.fetch_dclaw "$dclaw"
-
-build() { # colcon runs setup.py with its own interpreter, which the executables then start with
-    "$venv/bin/python" "$(command -v colcon)" build --symlink-install \
-        --cmake-args -DPython3_EXECUTABLE="$venv/bin/python" -DBUILD_TESTING=OFF
-}
 
 built_of() { # everything that decides what stands in install/; Python modules are symlinks there
     cat "$venv/stamp"
@@ -60,7 +81,7 @@ wanted=$(built_of | sha256sum)
 if [ "$wanted" != "$(cat install/stamp 2>/dev/null)" ]; then
     . "$venv/bin/activate"
     [ -n "$ros" ] || . "$venv/setup.bash"
-    must 'Build the packages with colcon' build
+    must 'Build the packages with colcon' build_all
     echo "$wanted" >install/stamp
 fi
 
@@ -70,7 +91,8 @@ compiled_of() { # numba caches machine code beside the source; see grasp_quality
 
 wanted=$(compiled_of | sha256sum)
 if [ "$wanted" != "$(cat "$venv/compiled" 2>/dev/null)" ]; then
-    must 'Compile the kernel' "$venv/bin/python" -m grasp_quality.warm_up
+    must 'Compile the kernel' compile_all
     echo "$wanted" >"$venv/compiled"
 fi
+catch_up
 printf 'ready after %d s: enter with  . ./env.sh\n' $((SECONDS - started))

@@ -35,3 +35,15 @@ must() { # must <text> <command>...: a step whose failure ends the set-up
     tail -n 15 "$step_log" >&2
     die "'$1' failed; the whole output is in $step_log"
 }
+
+begun=()
+
+head_start() { # head_start <function>: begin what a later step does again, should this fail
+    "$1" >"$step_log.$1" 2>&1 </dev/null & # with the lock: who comes next waits for it
+    begun+=($!)
+}
+
+catch_up() { # wait for what has a head start
+    [ ${#begun[@]} -eq 0 ] || wait "${begun[@]}"
+    begun=()
+}

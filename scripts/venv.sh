@@ -34,10 +34,11 @@ make_venv() {
         pip_install 'Libraries that Ubuntu lacks' requirements/with_ros.txt
     else
         must "Python environment ($("$python" --version))" "$python" -m venv "$venv"
-        pip_install 'ROS 2 Jazzy and colcon (70 MB)' requirements/ros_wheels.txt
-        pip_install 'Numerical libraries and simulator (170 MB)' requirements/without_ros.txt
+        pip_install 'ROS 2 Jazzy and colcon (90 MB)' requirements/ros_wheels.txt
         must 'Repair the include directories of the wheels' \
             "$venv/bin/python" scripts/repair_wheels.py
         must 'Environment scripts of the wheels' write_environment
+        head_start build_messages # compilers work while pip unpacks
+        pip_install 'Numerical libraries and simulator (150 MB)' requirements/without_ros.txt
     fi
 }
