@@ -5,7 +5,8 @@ Independent check of every contact force that a quality node publishes.
 
 Listens to the inputs and outputs of one node (parameter ``target``), and judges them by
 ``force_records`` and ``force_rules``, which share no code with that node. Violations go to the log
-and to /diagnostics; the process ends with code 1 when it has seen one. It sends nothing to hands.
+and to /diagnostics; the process ends with code 1 when it has seen one, with 2 when it has judged nothing.
+It sends nothing to hands.
 """
 
 from collections.abc import Callable
@@ -199,8 +200,9 @@ class ForceAuditNode(Node):
         """Say in one line what was seen."""
         count = self.records.count
         missing = ', '.join(f'{n} without {what}' for what, n in count.unjudged.items())
-        return (f'{count.judged} force sets judged, {count.violations} violations'
-                + (f', not judged: {missing}' if missing else ''))
+        return (f'{count.judged or "no"} force sets judged, {count.violations} violations'
+                + (f', not judged: {missing}' if missing else '')
+                + ('' if count.judged else f': is {self.target} the node, active, with a task?'))
 
     def _report(self) -> None:
         violated = bool(self.records.count.violations)
@@ -222,7 +224,7 @@ def _times(sent_ns: int | None) -> tuple[float, float]:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Listen until SIGINT or SIGTERM; return 1 when a rule was broken."""
+    """Listen until SIGINT or SIGTERM; return 1 when a rule was broken, 2 when nothing was judged."""
     stopping: list[int] = []
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     for number in (signal.SIGINT, signal.SIGTERM):
@@ -238,7 +240,7 @@ def main(args: list[str] | None = None) -> int:
     executor.shutdown()
     node.destroy_node()
     rclpy.shutdown()
-    return int(node.records.count.violations > 0)
+    return 1 if node.records.count.violations else 0 if node.records.count.judged else 2
 
 
 if __name__ == '__main__':

@@ -139,7 +139,8 @@ def _broken_force(force: Force, own: Limits) -> list[str]:
     norm = float(np.linalg.norm(parts))
     blur = BLUR / (own.friction or 1.0)
     if norm > n * (1.0 + CONE + blur) + CONE * small:
-        said.append(f'it lies outside its friction cone: {norm:.9g} N where {n:.9g} N are carried')
+        said.append(f'it lies outside its friction cone: what it carries along the surface takes '
+                    f'{norm:.9g} N along the normal, it has {n:.9g} N')
     if n > 10.0 * small and abs(norm / n - force.cone_usage) > CONE + blur:
         said.append(f'its cone usage is {norm / n:.9g}, not {force.cone_usage:.9g}')
     return said
@@ -190,6 +191,9 @@ def broken_balance(
     size = caps + float(np.abs(wanted[:3]).max())
     rounding = 1e-14 * size * float(np.abs(points).max()) / arm
     left = float(np.linalg.norm(np.concatenate([missing[:3], missing[3:] / arm])))
-    if not left <= BALANCE * size + rounding:
-        return [f'{left:.6g} N are missing to alpha task - external wrench (caps {caps:.6g} N)']
+    allowed = BALANCE * size + rounding
+    if not left <= allowed:
+        force, moment = np.linalg.norm(missing[:3]), np.linalg.norm(missing[3:])
+        return [f'{force:.6g} N and {moment:.6g} N m are missing to alpha task - external wrench '
+                f'(allowed: {allowed:.3g} N, moments over {arm:.3g} m)']
     return []

@@ -56,5 +56,5 @@ def begun_nodes(tmp_path_factory):
             assert node.process.end() == 0, node.process.log()
         for words in {'internal error', 'Traceback'} - node.expected:
             assert words not in node.process.log()
-        assert node.audit.end() == 0, node.audit.log()
+        assert node.audit.end() in (0, 2), node.audit.log()  # 2: no forces were published
         assert 'without parameters' not in node.audit.log()

@@ -128,3 +128,8 @@ def test_forces_beside_a_failure_are_found(truth, impostor, audit):
     impostor.say_until_found(audit, contradicting)
     assert audit.end() == 1
     assert 'not OPTIMAL' in audit.log()
+
+
+def test_to_have_judged_nothing_is_no_pass(impostor, audit):
+    assert audit.end() == 2
+    assert 'no force sets judged' in audit.log() and '/impostor/grasp_quality' in audit.log()
