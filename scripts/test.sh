@@ -16,8 +16,7 @@ run() {
 }
 
 chosen= failed=0
-longest=test/reliability/test_soak.py # first
-run -n 2 --dist loadfile --no-loadscope-reorder -m 'not alone' $longest grasp_quality_hand/test test "$@"
+run -n 2 --dist loadfile --no-loadscope-reorder -m 'not alone' grasp_quality_hand/test test "$@"
 run -m alone test grasp_quality_hand/test "$@"
 [ -n "$chosen" ] || { echo 'error: no test was chosen' >&2; exit $nothing; }
 exit $failed

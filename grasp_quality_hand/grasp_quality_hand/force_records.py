@@ -8,7 +8,7 @@ change between a sample and its answer. So a force set is judged ``GRACE_S`` aft
 pass with one combination of contacts and quality of its own stamp and parameters of the moment at
 which it was sent: on a busy machine it may be read long after they were replaced.
 What cannot be judged because a part never came (best effort topics may lose one) is counted apart.
-So is an objection that rests on a quality not seen, within ``GRACE_S`` of qualities known to be lost.
+So is an objection that rests on a quality not seen, near (``GRACE_S``) qualities known to be lost.
 """
 
 from collections import Counter, deque

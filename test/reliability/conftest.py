@@ -13,10 +13,14 @@ import pytest  # noqa: E402
 
 
 def pytest_collection_modifyitems(items):
-    """Keep other tests from running beside these, but for the soak."""
+    """Keep other tests from running beside these, but for the soak, which is long: it comes first."""
+    def is_soak(item):
+        return item.path.name == 'test_soak.py'
+
     for item in items:
-        if item.path.parent == Path(__file__).parent and item.path.name != 'test_soak.py':
+        if item.path.parent == Path(__file__).parent and not is_soak(item):
             item.add_marker(pytest.mark.alone)
+    items.sort(key=is_soak, reverse=True)
 
 
 @pytest.fixture(scope='session')
