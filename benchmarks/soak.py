@@ -15,6 +15,7 @@ first times loads code and takes memory that is kept for the next.
 """
 
 import argparse
+from collections import Counter
 import os
 from pathlib import Path
 import sys
@@ -26,6 +27,7 @@ from benchmarks.soak_faults import Faults
 from benchmarks.witness import inside, resident_mb, Witness
 from callers import start_callers
 from harness import start_audit, start_node
+from msg_adapters.results import code_name
 import numpy as np
 from rig import start_feed, TASK
 from transports import dropped, lost_words
@@ -184,14 +186,16 @@ def rows(soak, windows):
     sent, answered = witness.counts(windows)
     delays = witness.delays_ms(windows)
     late = int((delays > 1e3 / RATE_HZ).sum())
-    failures = sum(inside(sent_ns, windows) for _, sent_ns in witness.failures)
+    failures = Counter(code_name(code) for code, sent_ns in witness.failures
+                       if inside(sent_ns, windows))
     return [
         ('samples sent in all, answered', ', '.join(map(str, witness.counts([(0, 2 ** 63)])))),
         ('samples sent in calm times', sent),
         ('of these answered', answered),
         ('of these replaced by a newer one', sent - answered - soak.lost),
         ('of these lost by the middleware', lost_words(soak.lost)),
-        ('failures in calm times', failures),
+        ('failures in calm times', ', '.join(
+            f'{n} x {name}' for name, n in sorted(failures.items())) or '0'),
         ('contacts to quality, median / p99 / p99.9 / most [ms]',
          ' / '.join(f'{v:.2f}' for v in np.percentile(delays, [50, 99, 99.9, 100]))),
         (f'answered later than a period of {1e3 / RATE_HZ:g} ms', late)]

@@ -167,7 +167,7 @@ def state_force_closure(grasp: Grasp) -> Statement:
 
 def _wrench(grasp: Grasp, forces: cp.Variable) -> cp.Expression:
     """G x (6,), eq. (4)."""
-    return sum(grasp.matrix[:, i] @ forces[i] for i in range(len(grasp)))
+    return grasp.matrix.reshape(6, -1) @ cp.vec(forces, order='C')
 
 
 def _load(external_wrench: Numbers) -> Array | cp.Expression:
@@ -202,11 +202,11 @@ def _joints(grasp: Grasp, forces: cp.Variable,
             margin: cp.Variable | float = 0.0) -> list[cp.Constraint]:
     """|T x + tau_g| <= (1 - margin) tau_max of every joint that has a limit."""
     limits = grasp.joint_limits
-    return [] if limits is None else [
-        cp.abs(sum(T_j[i] @ forces[i] for i in range(len(grasp))) + gravity)
-        <= (1.0 - margin) * tau_max
-        for T_j, gravity, tau_max in zip(
-            limits.torque_matrix, limits.gravity_torques, limits.max_torques)]
+    if limits is None:
+        return []
+    torques = limits.torque_matrix.reshape(len(limits.max_torques), -1) @ cp.vec(
+        forces, order='C') + limits.gravity_torques
+    return [cp.abs(torques) <= (1.0 - margin) * limits.max_torques]
 
 
 def _log_det(contact: Contact, x: cp.Expression) -> cp.Expression:

@@ -13,7 +13,7 @@ venv_made_of() { # everything that decides what stands in .venv
 
 pip_install() { # pip_install <text> <requirements file>
     step "$1" "$venv/bin/python" -m pip install --disable-pip-version-check --retries 2 \
-        --progress-bar off -r "$2" && return
+        --progress-bar off --no-compile -r "$2" && return
     grep -qE 'NewConnectionError|ConnectTimeout|NameResolutionError|ProxyError|ReadTimeout' \
         "$step_log" && die "no network: pip cannot reach the package index; see $step_log"
     tail -n 5 "$step_log" >&2
