@@ -24,8 +24,8 @@ class Sequence:
         Returns
         -------
         float or None
-            Time when the last one before the missing was sent [s], by the clock of ``sent_s``; None
-            when this one follows another, and where the middleware counts nothing.
+            Time when the last one before the missing was sent [s], by the clock of ``sent_s``.
+            None when this one follows another, and where the middleware counts nothing.
 
         """
         if number is None:

@@ -5,8 +5,8 @@ Independent check of every contact force that a quality node publishes.
 
 Listens to the inputs and outputs of one node (parameter ``target``), and judges them by
 ``force_records`` and ``force_rules``, which share no code with that node. Violations go to the log
-and to /diagnostics; the process ends with code 1 when it has seen one, with 2 when it has judged nothing.
-It sends nothing to hands.
+and to /diagnostics; the process ends with code 1 when it has seen one, with 2 when it has judged
+nothing. It sends nothing to hands.
 """
 
 from collections.abc import Callable
@@ -224,7 +224,7 @@ def _times(sent_ns: int | None) -> tuple[float, float]:
 
 
 def main(args: list[str] | None = None) -> int:
-    """Listen until SIGINT or SIGTERM; return 1 when a rule was broken, 2 when nothing was judged."""
+    """Listen until SIGINT or SIGTERM; return 1 for a broken rule, 2 when nothing was judged."""
     stopping: list[int] = []
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     for number in (signal.SIGINT, signal.SIGTERM):

@@ -13,7 +13,7 @@ import pytest  # noqa: E402
 
 
 def pytest_collection_modifyitems(items):
-    """Keep other tests from running beside these, but for the soak, which is long: it comes first."""
+    """Keep other tests from running beside these; the soak may, and comes first: it is long."""
     def is_soak(item):
         return item.path.name == 'test_soak.py'
 
