@@ -24,11 +24,13 @@ from grasp_quality.node_markers import Display
 from grasp_quality.node_outputs import Outputs
 from grasp_quality.node_security import unsecured_reason
 from grasp_quality.node_services import Services
+from grasp_quality.node_settings import SOURCES
 from grasp_quality.warm_up import warm_up
 from grasp_quality_msgs.msg import ContactArray
 from msg_adapters import qos
 from msg_adapters.errors import NotActiveError
 from msg_adapters.results import error_result
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
@@ -73,12 +75,14 @@ class GraspQualityNode(LifecycleNode):
             clock=steady)
         self.create_timer(
             1.0 / self.settings.marker_rate, self._guarded(self._display.draw), clock=steady)
-        self.create_timer(PERIOD_S, self._guarded(
-            lambda: self._monitor.report(self._inputs.problems)), clock=steady)
+        self.create_timer(PERIOD_S, self._guarded(self._report), clock=steady)
         self.add_on_set_parameters_callback(
             lambda changes: parameters.check(self.settings, changes))
         self.add_post_set_parameters_callback(self._guarded(self._on_parameters))
         guard_services(self)
+        self._unknown = parameters.unknown_overrides(self)
+        for text in self._unknown:
+            self.get_logger().warning(text)
 
     def _listen_to_transforms(self):
         try:
@@ -112,9 +116,9 @@ class GraspQualityNode(LifecycleNode):
         for topic, keep in (('~/task_wrench', inputs.store_task_wrench),
                             ('~/external_wrench', inputs.store_load)):
             subscribe(WrenchStamped, topic, self._guarded(then_evaluate(keep)), command)
-        source = {'pose_array': (PoseArray, '~/contact_poses'),
-                  'contact_array': (ContactArray, '~/contacts')}[self.settings.contact_source]
-        subscribe(*source, sample(then_evaluate(inputs.store_contacts)), sensor)
+        source = self.settings.contact_source
+        subscribe(PoseArray if source == 'pose_array' else ContactArray, SOURCES[source],
+                  sample(then_evaluate(inputs.store_contacts)), sensor)
 
     def _guarded(self, callback):
         """Keep every exception inside the callback it came from."""
@@ -135,6 +139,32 @@ class GraspQualityNode(LifecycleNode):
     def _on_watch(self):
         if self.active:
             self._live.watch()
+
+    def _report(self):
+        """Report once a second; who publishes contacts elsewhere is looked up while none come."""
+        elsewhere = '' if self._inputs.has_contacts else self._elsewhere()
+        if elsewhere and elsewhere != self._inputs.elsewhere:
+            self.get_logger().warning(f'no contacts received yet{elsewhere}')
+        self._inputs.elsewhere = elsewhere
+        self._monitor.report(self._inputs.problems, (*self._unknown, *self._inputs.doubts()))
+
+    def _elsewhere(self):
+        own = self.settings.contact_source
+        other, = SOURCES.keys() - {own}
+        here, there = (self.count_publishers(self.resolve_topic_name(SOURCES[source]))
+                       for source in (own, other))
+        if here or not there:
+            return ''
+        return (f'; nobody publishes there, but somebody on {SOURCES[other]}: to listen there, '
+                f'start the node with contact_source {other}')
+
+    def set_parameters_atomically(self, parameter_list):
+        """Refuse unknown names by name, which rclpy 7.1 loses on the way to its answer."""
+        unknown = [p.name for p in parameter_list if not self.has_parameter(p.name)]
+        if unknown:
+            return SetParametersResult(
+                successful=False, reason=f'there are no parameters of these names: {unknown}')
+        return super().set_parameters_atomically(parameter_list)
 
     def _on_parameters(self, changes):
         self.settings = parameters.changed(self.settings, changes)

@@ -66,8 +66,8 @@ class Monitor:
                 logger.warning(text)
         self._result = result
 
-    def report(self, problems=()):
-        """Publish and start counting anew; problems are sentences about ignored inputs."""
+    def report(self, problems=(), doubts=()):
+        """Publish, start counting anew; sentences on ignored inputs, and of what to be warned."""
         now = time.monotonic()
         elapsed = max(now - self._since, 1e-9)
         values = {
@@ -83,11 +83,15 @@ class Monitor:
             values['lowest measured slip margin'] = f'{self._lowest_margin:.4g}'
         for i, problem in enumerate(problems):
             values[f'ignored input {i}'] = problem
+        for i, doubt in enumerate(doubts):
+            values[f'warning {i}'] = doubt
         status = DiagnosticStatus(
-            level=self._level(problems or slipping), name=f'{self._node.get_name()}: live loop',
+            level=self._level(problems or slipping or doubts),
+            name=f'{self._node.get_name()}: live loop',
             message='; '.join(filter(None, [
                 self._result.message or code_name(self._result.code),
-                f'{len(problems)} measured wrenches ignored' if problems else '', slipping])),
+                f'{len(problems)} measured wrenches ignored' if problems else '', slipping,
+                *doubts])),
             hardware_id=self._node.get_fully_qualified_name(),
             values=[KeyValue(key=key, value=value) for key, value in values.items()])
         message = DiagnosticArray(status=[status])
@@ -104,11 +108,11 @@ class Monitor:
         return (f'measured slip margin {self._lowest_margin:.3g} is below margin_warning '
                 f'{limit:g}')
 
-    def _level(self, problems):
+    def _level(self, warned):
         if not self._node.active:
             return DiagnosticStatus.WARN
         if self._result.code in FAULTS:
             return DiagnosticStatus.ERROR
-        if self._result.code != ResultCode.OPTIMAL or problems:
+        if self._result.code != ResultCode.OPTIMAL or warned:
             return DiagnosticStatus.WARN
         return DiagnosticStatus.OK

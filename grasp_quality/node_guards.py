@@ -7,6 +7,7 @@ In rclpy 7.1 an impossible transition and a parameter of an unknown type raise t
 and leave the client waiting for ever. Here they are refused with the reason, like everything else.
 """
 
+from grasp_quality.node_log import Refusals
 from lifecycle_msgs.srv import ChangeState
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
@@ -14,17 +15,19 @@ from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
 def guard_services(node):
     """Wrap the services of a lifecycle node that change it."""
+    refusals = Refusals(node.get_logger().warning)
     for service in node.services:
         if service.srv_type in REFUSALS:
-            service.callback = _answering(service.callback, REFUSALS[service.srv_type], node)
+            service.callback = _answering(
+                service.callback, REFUSALS[service.srv_type], refusals)
 
 
-def _answering(callback, refuse, node):
+def _answering(callback, refuse, refusals):
     def answer(request, response):
         try:
             return callback(request, response)
         except Exception as exc:
-            node.get_logger().warning(f'refused: {exc}', throttle_duration_sec=1.0)
+            refusals.tell(f'refused: {exc}')
             refuse(request, response, str(exc))
             return response
     return answer

@@ -20,8 +20,9 @@ from grasp_quality.arrays import Array
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.grasp import Grasp
 from grasp_quality.moving import moved
+from grasp_quality.node_felt import doubts, Felt
 from grasp_quality.node_scene import Scene
-from grasp_quality.node_settings import Settings
+from grasp_quality.node_settings import Settings, SOURCES
 from msg_adapters.contacts import contacts_from_array, contacts_from_poses
 from msg_adapters.errors import InvalidMessageError, NoContactsError, StaleContactsError
 from msg_adapters.frames import object_frame_of, Transform, transform_to
@@ -58,12 +59,31 @@ class Inputs:
         self.task: Any = None      # SetTask.Request or HeldTask
         self.load: HeldLoad | None = None
         self.tf_buffer: Any = None  # tf2_ros.Buffer where tf2 is installed
-        self.problems: tuple[str, ...] = ()  # what was wrong with measured wrenches, last time
+        self._felt: Felt | None = None  # by the contacts of the last scene
+        self.elsewhere = ''  # who else publishes contacts, while none have come
 
     def clear(self) -> None:
         """Forget contacts and measurements, as on deactivation; keep the task."""
-        self._contacts = None
+        self._contacts = self._felt = None
         self._wrenches = {}
+
+    @property
+    def has_contacts(self) -> bool:
+        """Whether any contacts came."""
+        return self._contacts is not None
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """Why measured wrenches of the last scene cannot be used."""
+        return () if self._felt is None else tuple(self._felt.refused.values())
+
+    def doubts(self) -> tuple[str, ...]:
+        """Say what is doubtful about the measured forces of the contacts that there are now."""
+        try:
+            self.age_s()
+        except (NoContactsError, StaleContactsError):
+            return ()
+        return () if self._felt is None else doubts(self._felt, self._settings(), self._wrenches)
 
     def store_contacts(self, message: Stamped, sent_ns: int | None = None) -> bool:
         """Keep a PoseArray or ContactArray, unless one with a later stamp is fresh; tell if so."""
@@ -120,9 +140,10 @@ class Inputs:
 
         """
         if self._contacts is None:
+            source = self._settings().contact_source
             raise NoContactsError(
-                'no contacts received yet: publish them on ~/contact_poses or ~/contacts, as '
-                'parameter contact_source says')
+                f'no contacts received yet on {SOURCES[source]} (parameter contact_source is '
+                f'{source}){self.elsewhere}')
         limit = self._settings().max_contact_age
         message, arrival = self._contacts
         ages = self._ages(message, arrival)
@@ -151,10 +172,10 @@ class Inputs:
         if read is None or read[0] is not message or read[1] is not settings:
             read = self._read = (message, settings, *self.read_grasp(message))
         grasp, frame = read[2:]
-        forces = self._measured(grasp.contacts, frame)
+        felt = self._felt = self._measured(grasp.contacts, frame)
+        forces = felt.forces
         if settings.min_contact_force > 0.0:
-            loaded = [i for i, force in enumerate(forces)
-                      if force is not None and force[2] >= settings.min_contact_force]
+            loaded = felt.loaded(settings.min_contact_force)
             if not loaded:
                 silent = [name for name, force in zip(grasp.names, forces) if force is None]
                 raise NoContactsError(NOT_LOADED + (
@@ -199,9 +220,10 @@ class Inputs:
         """Transform from a header's frame to the object frame at a time; None for the identity."""
         return transform_to(frame, header.frame_id, self.tf_buffer, stamp)
 
-    def _measured(self, contacts: ContactSet, frame: str) -> list[Array | None]:
-        """Fresh measured force (4,) of each contact, or None."""
-        forces, problems = [], []
+    def _measured(self, contacts: ContactSet, frame: str) -> Felt:
+        """Read the fresh measured force of each contact."""
+        forces: list[Array | None] = []
+        refused: dict[str, str] = {}
         limit = self._settings().max_contact_age
         for i, name in enumerate(contacts.names):
             message, arrival = self._wrenches.get(name, (None, 0))
@@ -212,10 +234,9 @@ class Inputs:
                     try:
                         force = local_force(message, contacts[i], frame)
                     except InvalidMessageError as exc:
-                        problems.append(str(exc))
+                        refused[name] = str(exc)
             forces.append(force)
-        self.problems = tuple(problems)
-        return forces
+        return Felt(contacts, forces, refused)
 
     def _ages(self, message: Stamped, arrival: int) -> tuple[float, float]:
         since_arrival = (self._steady_ns() - arrival) * 1e-9

@@ -120,7 +120,7 @@ class LiveLoop:
         if inputs.task is None:
             raise InvalidMessageError(
                 'no task set: call ~/set_task, publish ~/task_wrench or set the parameter '
-                'task_wrench')
+                'task_wrench; ~/holding_forces need one too, whichever it is')
         # where the object is when its contacts are sensed, not when the task was sent
         transform = inputs.transform(inputs.task.header, scene.frame, scene.stamp)
         message, under, task = self._task

@@ -11,6 +11,7 @@ and without ROS, which is why only the functions that talk to a node import it.
 
 from collections.abc import Iterable
 from dataclasses import fields
+import difflib
 import enum
 from typing import Any
 
@@ -151,3 +152,14 @@ def check(settings: Settings, parameters: Iterable[Any]) -> Any:
     except (ValueError, TypeError) as exc:
         return SetParametersResult(successful=False, reason=str(exc))
     return SetParametersResult(successful=True)
+
+
+def unknown_overrides(node: Any) -> tuple[str, ...]:
+    """Say which overrides no parameter was declared for, so that they change nothing."""
+    given = getattr(node, '_parameter_overrides', {})  # rclpy tells of them nowhere else
+    unknown = [name for name in sorted(given)
+               if not node.has_parameter(name) and not name.startswith('qos_overrides.')]
+    return tuple(
+        f'there is no parameter {name!r}, its value changes nothing' + ''.join(
+            f': {near!r} may be meant' for near in difflib.get_close_matches(name, TABLE, 1))
+        for name in unknown)

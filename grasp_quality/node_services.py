@@ -17,6 +17,7 @@ from grasp_quality.directions import force_grid
 from grasp_quality.explanation import explain
 from grasp_quality.holding import minimum_forces
 from grasp_quality.measures import evaluate, wrench_map
+from grasp_quality.node_log import Refusals
 from grasp_quality.node_worker import Worker
 from grasp_quality.robust import robust_alpha
 from grasp_quality.status import Status
@@ -48,7 +49,7 @@ class Services:
         self._inputs = inputs
         self._settings = settings
         self._is_active = is_active
-        self._logger = node.get_logger()
+        self._refusals = Refusals(node.get_logger().warning)
         self._worker = Worker(node)
         for kind, handler in (
                 (srv.EvaluateTaskWrench, self.evaluate_task_wrench),
@@ -76,8 +77,7 @@ class Services:
                     self._check_active()  # it may have been deactivated meanwhile
             except Exception as exc:
                 response = type(response)(result=error_result(exc))
-                self._logger.warning(
-                    f'{handler.__name__}: {response.result.message}', throttle_duration_sec=1.0)
+                self._refusals.tell(f'{handler.__name__}: {response.result.message}')
             response.solve_time = to_duration(time.perf_counter() - started)
             return response
         return answer

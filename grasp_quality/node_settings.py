@@ -20,7 +20,7 @@ from msg_adapters.contacts import ContactDefaults
 from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.topic_names import names_a_topic, TOPIC_RULE
 
-SOURCES = ('pose_array', 'contact_array')
+SOURCES = {'pose_array': '~/contact_poses', 'contact_array': '~/contacts'}  # their topics
 
 
 @dataclass(frozen=True)

@@ -172,6 +172,7 @@ def test_without_a_task_the_loop_says_how_to_set_one(start):
     outputs = Outputs(client)
     quality = outputs.failure(ResultCode.INVALID_REQUEST, feed)
     assert 'no task set' in quality.result.message
+    assert 'holding_forces need one too' in quality.result.message
     client.call(srv.SetTask, 'set_task', kind=1, task_wrench=wrench(fy=1.0))
     outputs.answer(feed)
 

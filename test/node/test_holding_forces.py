@@ -70,3 +70,24 @@ def test_they_are_empty_when_the_node_has_no_answer(client, outputs, heard, feed
     client.fresh(heard, lambda m: not m.forces, 'empty forces', feed(SINGLE))
     load(client, fy=0.0)
     client.fresh(heard, lambda m: m.forces, 'forces again', feed())
+
+
+def test_they_need_a_task_whichever_it_is(start):
+    """Along y, and about the line through both contacts, which no force of theirs turns."""
+    client = start(max_contact_age='2.0').client
+    heard = client.listen(ContactForceArray, 'holding_forces')
+    publisher = client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
+    load(client, fz=-3.0)
+
+    def feed():
+        publisher.publish(pose_array(ANTIPODAL, client.now()))
+
+    Outputs(client).failure(ResultCode.INVALID_REQUEST, feed)
+    client.fresh(heard, lambda m: not m.forces, 'empty forces', feed)
+    for task in (wrench(fy=1.0), wrench(tx=1.0)):
+        client.publisher(WrenchStamped, 'task_wrench').publish(WrenchStamped(wrench=task))
+        begin = stamp_ns(client.now())
+        held = client.fresh(heard, lambda m, begin=begin: m.forces and stamp_ns(
+            m.header.stamp) > begin, 'forces', feed)
+        assert total_wrench(held) == pytest.approx([0, 0, 3.0, 0, 0, 0], abs=SOLVER)
+        check_forces(held)

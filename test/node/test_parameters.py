@@ -127,6 +127,17 @@ def test_a_parameter_of_an_unknown_type_is_refused_and_its_client_answered(clien
     alpha(10.0)
 
 
+def test_an_unknown_name_is_refused_by_name(client, alpha):
+    changes = messages({'friction_coefficient': 0.5, 'friction_coeficient': 1.0, '': 1.0})
+    answer = client.call(SetParameters, 'set_parameters', parameters=changes)
+    assert [result.successful for result in answer.results] == [True, False, False]
+    assert "['friction_coeficient']" in answer.results[1].reason
+    result = client.call(
+        SetParametersAtomically, 'set_parameters_atomically', parameters=changes).result
+    assert not result.successful and "['friction_coeficient', '']" in result.reason
+    alpha(10.0)
+
+
 def test_together_means_all_or_nothing(client, alpha, restored):
     def together(**changes):
         return client.call(SetParametersAtomically, 'set_parameters_atomically',
