@@ -76,18 +76,23 @@ def test_they_need_a_task_whichever_it_is(start):
     """Along y, and about the line through both contacts, which no force of theirs turns."""
     client = start(max_contact_age='2.0').client
     heard = client.listen(ContactForceArray, 'holding_forces')
-    publisher = client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
-    load(client, fz=-3.0)
+    contacts = client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
+    tasks = client.publisher(WrenchStamped, 'task_wrench')
 
-    def feed():
-        publisher.publish(pose_array(ANTIPODAL, client.now()))
+    def feed(task=None):
+        load(client, fz=-3.0)
+        if task is not None:
+            tasks.publish(WrenchStamped(wrench=task))
+        contacts.publish(pose_array(ANTIPODAL, client.now()))
 
-    Outputs(client).failure(ResultCode.INVALID_REQUEST, feed)
+    outputs = Outputs(client)
+    outputs.failure(ResultCode.INVALID_REQUEST, feed)
     client.fresh(heard, lambda m: not m.forces, 'empty forces', feed)
     for task in (wrench(fy=1.0), wrench(tx=1.0)):
-        client.publisher(WrenchStamped, 'task_wrench').publish(WrenchStamped(wrench=task))
-        begin = stamp_ns(client.now())
-        held = client.fresh(heard, lambda m, begin=begin: m.forces and stamp_ns(
-            m.header.stamp) > begin, 'forces', feed)
+        outputs.answer(lambda task=task: feed(task),
+                       lambda quality, task=task: quality.task_wrench == task)
+        held = client.fresh(
+            heard, lambda m: m.forces and abs(total_wrench(m)[2] - 3.0) <= SOLVER,
+            'forces that hold 3 N', lambda task=task: feed(task))
         assert total_wrench(held) == pytest.approx([0, 0, 3.0, 0, 0, 0], abs=SOLVER)
         check_forces(held)

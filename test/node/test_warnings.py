@@ -47,8 +47,9 @@ def reports(client):
 
     def wait(condition, what, feed=None):
         return client.fresh(
-            heard, lambda m: m.status[0].hardware_id == client.target and condition(m.status[0]),
-            what, feed).status[0]
+            heard, lambda m: m.status[0].hardware_id == client.target
+            and m.status[0].name.endswith('live loop') and condition(m.status[0]),
+            what, feed).status[0]  # beside those of the auditor
     return wait
 
 
