@@ -21,7 +21,8 @@ grasp = Grasp([
             name='right')])
 
 answer = evaluate(grasp, TaskWrench(LIFT))
-print(f'alpha = {answer.alpha:.4f} times the weight, limited by {answer.limiting_contact}')
+print(f'alpha = {answer.alpha:.4f} times the weight, limited by '
+      f'{" and ".join(answer.limited_by)}')
 
 held = hold_forces(grasp, external_wrench=WEIGHT)
 if not held.feasible:

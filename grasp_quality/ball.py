@@ -20,6 +20,7 @@ from grasp_quality.grasp import Grasp
 from grasp_quality.inscribed import Inscribed
 from grasp_quality.joint_limits import refuse_limits
 from grasp_quality.solution import Solution
+from grasp_quality.status import OneLine
 from grasp_quality.task import TaskEllipsoid
 from grasp_quality.time_limit import TimeLimit
 from grasp_quality.wrench import skew
@@ -34,7 +35,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class BallRadius:
+class BallRadius(OneLine):
     """
     Certified interval of the largest factor s with s E inside W.
 
@@ -159,7 +160,7 @@ def ellipsoid_scale(grasp: Grasp, ellipsoid: TaskEllipsoid, relative_width: floa
     refuse_limits(grasp.joint_limits, 'the largest ball')
     found = Inscribed(grasp, ellipsoid.axes, width, TimeLimit.of(time_limit_s))
     return BallRadius(
-        grasp, found.lower, found.upper, frozen(_physical(grasp, found.multiplier)),
+        grasp, float(found.lower), float(found.upper), frozen(_physical(grasp, found.multiplier)),
         frozen(found.touching), found.weakest, found.reached, found.cells)
 
 

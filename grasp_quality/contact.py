@@ -32,6 +32,16 @@ class ContactModel(enum.Enum):
     SFCE = 'SFCE'  # soft finger contact, elliptic approximation
 
 
+def model_of(value: object, label: str = '') -> ContactModel:
+    """Return the model of a ContactModel or its name."""
+    try:
+        return ContactModel(value)
+    except ValueError as exc:
+        raise InvalidContactError(
+            f'{label}model must be one of {[m.value for m in ContactModel]}, or a ContactModel, '
+            f'got {value!r}') from exc
+
+
 @dataclass(frozen=True, eq=False)
 class Contact:
     """
@@ -44,8 +54,8 @@ class Contact:
     normal : (3,) array_like, optional
         Inward normal (into the object) in the object frame, of any length but zero. The tangents
         t1, t2 are then chosen by a fixed rule; give ``rotation`` instead to choose them yourself.
-    model : ContactModel
-        PCWF unless given.
+    model : ContactModel or str
+        Or its name, 'FPC', 'PCWF' or 'SFCE'; PCWF unless given.
     friction : float [-]
         Coulomb coefficient mu >= 0, 0.5 unless given; not used by FPC.
     torsional_friction : float [m]
@@ -76,7 +86,7 @@ class Contact:
 
     if TYPE_CHECKING:  # anything like an array may be given
         def __init__(self, position: ArrayLike, normal: ArrayLike | None = None,
-                     model: ContactModel = ContactModel.PCWF, friction: float = 0.5,
+                     model: ContactModel | str = ContactModel.PCWF, friction: float = 0.5,
                      torsional_friction: float = 0.0, max_normal_force: float = 1.0,
                      name: str = '', finger: str = '', rotation: ArrayLike | None = None) -> None:
             ...
@@ -95,10 +105,7 @@ class Contact:
                 f'got {self.position.tolist()}')
         put('rotation', self._frame(label))
         put('normal', self.rotation[:, 2])
-        if not isinstance(self.model, ContactModel):
-            raise InvalidContactError(
-                f'{label}model must be one of {[str(m) for m in ContactModel]}, '
-                f'got {self.model!r}')
+        put('model', model_of(self.model, label))
         for field in ('friction', 'torsional_friction'):
             put(field, checked_number(
                 getattr(self, field), label + field, InvalidContactError, minimum=0.0))

@@ -15,7 +15,7 @@ from typing import NoReturn, overload, TYPE_CHECKING
 
 from grasp_quality.arrays import Array, Bools, checked, frozen, SMALLEST
 from grasp_quality.contact import (
-    Contact, ContactModel, FARTHEST, IDENTITY, ROTATION_TOLERANCE)
+    Contact, ContactModel, FARTHEST, IDENTITY, model_of, ROTATION_TOLERANCE)
 from grasp_quality.exceptions import InvalidContactError, InvalidGraspError
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,7 +31,7 @@ class ContactSet(Sequence[Contact]):
     positions : (k, 3) array_like [m]
     rotations : (k, 3, 3) array_like
         R_object_contact; columns t1, t2, inward normal.
-    models : sequence of ContactModel
+    models : sequence of ContactModel or str
     friction, torsional_friction, max_normal_forces : (k,) array_like [-], [m], [N]
     names, fingers : sequences of str
 
@@ -53,7 +53,7 @@ class ContactSet(Sequence[Contact]):
 
     if TYPE_CHECKING:  # anything like an array may be given
         def __init__(self, positions: ArrayLike, rotations: ArrayLike,
-                     models: Sequence[ContactModel], friction: ArrayLike,
+                     models: Sequence[ContactModel | str], friction: ArrayLike,
                      torsional_friction: ArrayLike, max_normal_forces: ArrayLike,
                      names: Sequence[str], fingers: Sequence[str]) -> None: ...
 
@@ -117,8 +117,9 @@ class ContactSet(Sequence[Contact]):
             self._refuse(self.max_normal_forces < SMALLEST,
                          f'max_normal_force must be greater than 0, at least {SMALLEST:g}')
         if not all(isinstance(model, ContactModel) for model in self.models):
-            self._refuse([not isinstance(model, ContactModel) for model in self.models],
-                         f'model must be one of {[str(m) for m in ContactModel]}')
+            object.__setattr__(self, 'models', tuple(
+                model_of(model, f'contact {i} ({self.names[i]!r}): ')
+                for i, model in enumerate(self.models)))
 
     def _refuse(self, broken: Bools | list[bool], rule: str) -> NoReturn:
         i = int(np.flatnonzero(broken)[0])

@@ -16,6 +16,7 @@ from grasp_quality.explanation_text import paragraph
 from grasp_quality.grasp import Grasp
 from grasp_quality.kinks import Uniqueness, uniqueness
 from grasp_quality.problem import build_problem
+from grasp_quality.proof import ZERO_TOLERANCE
 from grasp_quality.slopes import (
     can_step, changed_along, largest_alpha, one_sided_slopes, Slopes, smooth_slopes)
 from grasp_quality.solution import Solution
@@ -72,8 +73,8 @@ class Explanation:
     uniqueness : Uniqueness
         Whether forces and multipliers are unique; where not, slopes are one-sided.
     limits : (k,) tuple of str
-        Of every contact: 'slip' or 'cap' when a larger cap would help, mostly through friction or
-        not; '' when its cap does not matter.
+        Of every contact: 'slip' or 'cap' when a part of alpha hangs on its cap, mostly through
+        friction or not; '' when none does. Whether a larger cap helps is in ``forward``.
     shares : (k,) array
         f_max d alpha / d f_max over alpha: without a load, and away from kinks, they and those of
         the joints add up to one.
@@ -144,11 +145,13 @@ def explain(grasp: Grasp, task: TaskWrench | TaskCone, external_wrench: ArrayLik
         unique = uniqueness(problem, limit)
     forward = backward = smooth_slopes(solution)
     if not unique.smooth:
-        forward, backward = one_sided_slopes(alpha, grasp)
+        forward, backward = one_sided_slopes(
+            alpha, grasp, ZERO_TOLERANCE * solution.size * solution.powerless)
     worth = solution.dalpha_dmax_force * grasp.max_normal_forces
-    shares = worth / solution.alpha if solution.alpha > 0.0 else np.zeros(len(grasp))
+    counts = solution.feasible and not solution.powerless
+    shares = worth / solution.alpha if counts else np.zeros(len(grasp))
     joint_shares = np.zeros(len(solution.joint_multiplier))
-    if grasp.joint_limits is not None and solution.alpha > 0.0:
+    if grasp.joint_limits is not None and counts:
         torques = grasp.joint_limits.max_torques
         joint_shares = solution.dalpha_dmax_torque * torques / solution.alpha
     limits = tuple(
@@ -159,7 +162,7 @@ def explain(grasp: Grasp, task: TaskWrench | TaskCone, external_wrench: ArrayLik
         made = [(gain, kind, i, way, alpha(changed_along(grasp, i, kind, UNITS[kind] * way)))
                 for gain, kind, i, way in candidates(forward, backward)
                 if can_step(grasp, i, kind, UNITS[kind])]
-        size = max(solution.alpha, 1e-3 * problem.reach * problem.virtual.unit)
+        size = max(solution.alpha, sensitivity.LEAST * solution.size)
         made = [row for row in made if row[-1] > solution.alpha + sensitivity.NEGLIGIBLE * size]
         if made:
             gain, kind, i, way, reached = max(made, key=lambda row: row[-1])

@@ -27,8 +27,11 @@ def paragraph(solution: Solution, unique: Uniqueness, limits: tuple[str, ...], s
     if not solution.feasible:
         return ('The grasp cannot balance the external wrench with any share of the task: no '
                 'forces inside the friction cones and the force bound do.')
-    grasp = solution.grasp
-    words = [f'The grasp applies {solution.alpha:.4g} times the task.']
+    grasp, remark = solution.grasp, solution.remark
+    words = [] if solution.powerless else [
+        f'The grasp applies {solution.alpha:.4g} times the task.']
+    if remark:
+        words.append(f'{remark[0].upper()}{remark[1:]}.')
     order = [int(i) for i in np.argsort(-shares) if limits[i]]
     listed = [f'{grasp.name_of(i)} {WAYS[limits[i]]} ({100.0 * shares[i]:.0f} %)' for i in order]
     joints = () if grasp.joint_limits is None else grasp.joint_limits.names
@@ -36,13 +39,15 @@ def paragraph(solution: Solution, unique: Uniqueness, limits: tuple[str, ...], s
                for j in np.argsort(-joint_shares) if joint_shares[j] > NEGLIGIBLE]
     if listed:
         words.append(f'It is limited by {", ".join(listed)}.')
-    else:
+    elif not solution.powerless:
         words.append('No larger force cap would raise that.')
     if best is None:
         words.append('No single change of a newton of cap, 0.01 of friction, a millimetre or a '
                      'degree of one contact raises it.')
     else:
         words.append(f'The best single change: {_in_words(best)}, which gives {best.alpha:.4g}.')
+    if best is None and solution.powerless:
+        return ' '.join(words)
     i = order[0] if order else 0
     words.append(
         f'At {grasp.name_of(i)} a newton of cap is worth {forward.max_force[i]:.3g}, 0.01 of '

@@ -22,7 +22,8 @@ from dataclasses import dataclass
 from grasp_quality import bounds
 from grasp_quality.arguments import plain_grasps
 from grasp_quality.arrays import ANY, checked, frozen, SMALLEST
-from grasp_quality.contact import ContactModel, FARTHEST, IDENTITY, ROTATION_TOLERANCE
+from grasp_quality.contact import (
+    ContactModel, FARTHEST, IDENTITY, model_of, ROTATION_TOLERANCE)
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.exceptions import InvalidContactError, InvalidGraspError
 from grasp_quality.frames import frames_of_normals
@@ -133,7 +134,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
     def of_arrays(
             cls, positions: ArrayLike, normals: ArrayLike | None = None, *,
             rotations: ArrayLike | None = None,
-            model: ContactModel | Sequence[ContactModel] = ContactModel.PCWF,
+            model: ContactModel | str | Sequence[ContactModel | str] = ContactModel.PCWF,
             friction: ArrayLike = 0.5, torsional_friction: ArrayLike = 0.0,
             max_normal_force: ArrayLike = 1.0, bound: str = 'linf',
             fingers: Sequence[str] = ()) -> GraspSet:
@@ -148,7 +149,7 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
             Inward, of any length but zero; tangents are chosen as ``Contact`` chooses them.
         rotations : (M, k, 3, 3) array_like
             Instead of normals.
-        model : ContactModel
+        model : ContactModel, or its name
             One for all, or a sequence with one for each of the k contacts.
         friction, torsional_friction, max_normal_force : array_like [-], [m], [N]
             Broadcast to (M, k).
@@ -167,7 +168,8 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
             frames = frames_of_normals(given.reshape(-1, 3))
         elif rotations is not None:
             frames = checked(rotations, (M, k, 3, 3), 'rotations', InvalidContactError)
-        models = [model] * k if isinstance(model, ContactModel) else list(model)
+        models = [model_of(m) for m in (
+            [model] * k if isinstance(model, (ContactModel, str)) else model)]
         groups = bounds.groups_of(bound, list(fingers) or [''] * k)
         if not M or not k or len(models) != k or len(groups) != k:
             raise InvalidGraspError(

@@ -101,7 +101,7 @@ class LiveLoop:
         if solution.feasible:
             left = min(limit - solve_time, settings.max_contact_age - self._inputs.age_s())
             quantile, reason = live_quantile(scene, task, load, settings, left)
-        result = status_result(solution.status, pinned=solution.pinned)
+        result = status_result(solution.status, remark=solution.remark)
         result.message = result.message or reason
         quality = GraspQuality(
             header=Header(stamp=scene.stamp, frame_id=scene.frame), result=result,

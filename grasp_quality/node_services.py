@@ -115,7 +115,7 @@ class Services:
         """Answer the largest alpha of one wrench, and its forces."""
         grasp, header, transform, load = self._question(request)
         solution = await self._evaluate(grasp, wrench_task(request.task_wrench, transform), load)
-        response.result = status_result(solution.status, pinned=solution.pinned)
+        response.result = status_result(solution.status, remark=solution.remark)
         response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
         response.alpha_lower, response.holdable = solution.alpha_lower, solution.holdable
         response.forces = force_array(header, grasp, solution.forces, solution.cone_usage)
@@ -127,7 +127,7 @@ class Services:
         grasp, header, transform, load = self._question(request)
         task = cone_task(request, transform, SURFACE_SAMPLES)
         solution = await self._evaluate(grasp, task, load)
-        response.result = status_result(solution.status)
+        response.result = status_result(solution.status, remark=solution.remark)
         if solution.feasible:
             response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
             response.alpha_axis = solution.alpha_axis
@@ -153,9 +153,7 @@ class Services:
         """Answer the smallest forces that balance the external wrench."""
         grasp, header, _, load = self._question(request)
         answer = await self._worker.run(minimum_forces, grasp, load, self._limit())
-        response.result = status_result(answer.status, (
-            f'no forces within cones and caps balance the external wrench: {answer.peak:.4g} '
-            f'times the caps would be needed, {answer.violation:.4g} N remain unbalanced'))
+        response.result = status_result(answer.status, answer.reason)
         response.peak = answer.peak if math.isfinite(answer.peak) else 0.0
         response.forces = force_array(header, grasp, answer.forces, answer.cone_usage)
 

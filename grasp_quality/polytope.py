@@ -10,6 +10,7 @@ corners (docs/derivations.md).
 
 from collections.abc import Callable
 import itertools
+import math
 from typing import Any
 
 from grasp_quality.arrays import Array, frozen, SMALLEST
@@ -47,7 +48,7 @@ def evaluate_ellipsoid(grasp: Grasp, task: TaskEllipsoid,
     solutions = [solve_one(TaskWrench(wrench)) for wrench in ends]
     summary = _summary(grasp, solutions, np.full(len(ends), 1.0 / len(ends)))
     held = all(s.feasible and s.holdable for s in solutions)
-    guaranteed = float(summary['alphas'].min()) / np.sqrt(len(task.axes)) if held else 0.0
+    guaranteed = float(summary['alphas'].min()) / math.sqrt(len(task.axes)) if held else 0.0
     return PolytopeSolution(**summary, guaranteed_scale=guaranteed)
 
 

@@ -21,6 +21,7 @@ from grasp_quality.problem import ConicProblem
 import numpy as np
 
 GAP_TOLERANCE = 1e-6       # of max(objective, 1e-3 a0)
+ZERO_TOLERANCE = 2e-3 * GAP_TOLERANCE  # of a0: a bound that a proof does not tell from zero
 RESIDUAL_TOLERANCE = 1e-8  # of the caps' total, torques over the lever arm
 IMBALANCE_TOLERANCE = 1e-6  # of the task's or the load's own size
 USAGE_TOLERANCE = 1e-9     # over a cone usage, or a use of the bound, of one
@@ -93,8 +94,7 @@ class Proof:
     def admissible(self) -> bool:
         """Whether residual and use of cones, bound and joints are within tolerance."""
         return bool(
-            self.residual <= RESIDUAL_TOLERANCE
-            and self.imbalance <= IMBALANCE_TOLERANCE
+            self.residual <= RESIDUAL_TOLERANCE and self.imbalance <= IMBALANCE_TOLERANCE
             and self.usage <= 1.0 + USAGE_TOLERANCE
             and self.bound_usage <= 1.0 + USAGE_TOLERANCE
             and self.joint_usage.max(initial=0.0) <= 1.0 + JOINT_TOLERANCE)

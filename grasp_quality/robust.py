@@ -21,6 +21,7 @@ from grasp_quality.many import evaluate_many, Outcome
 from grasp_quality.problem import build_problem, NO_WRENCH
 from grasp_quality.sample_statistics import quantile_interval, wilson_interval
 from grasp_quality.solve import solve
+from grasp_quality.status import OneLine
 from grasp_quality.task import TaskCone, TaskPolytope, TaskWrench
 from grasp_quality.time_limit import TimeLimit
 from grasp_quality.uncertainty import draw, Uncertainty
@@ -36,7 +37,7 @@ CONFIDENCE = 0.95  # of intervals, unless said otherwise
 
 
 @dataclass(frozen=True, eq=False)
-class RobustAlpha:
+class RobustAlpha(OneLine):
     """
     The distribution of alpha, as far as a sample tells.
 

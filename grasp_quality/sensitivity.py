@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from grasp_quality.solution import Solution
 
 NEGLIGIBLE = 1e-6  # share of alpha below which a cap is worth nothing to the task
+LEAST = 1e-3  # of a0: a smaller alpha counts as this much
+ALIKE = 1e-3  # share by which two limits may differ in worth and still count as alike
 
 
 def friction_worth(grasp: Grasp, h: Array) -> Array:
@@ -41,25 +43,37 @@ def friction_slope(grasp: Grasp, h: Array) -> Array:
     return slope
 
 
-def limit(worth: Array, alpha: float) -> int | None:
-    """Index of the limit that is worth most, of contacts (and joints behind); None for none."""
-    best = int(np.argmax(worth))
-    return best if worth[best] > NEGLIGIBLE * max(alpha, 1e-300) else None
+def limited_by(solution: Solution) -> dict[str, str]:
+    """
+    Find what limits the task most: contacts, or joints, by name, with the reason of each.
+
+    Those whose limits carry the largest part of alpha; several where they carry it alike, none
+    where alpha hangs on no limit. 'slip': what a cap is worth it is worth mostly through friction;
+    'cap': through the normal force; 'joint': it is the limit of a torque. A tighter limit takes
+    that part from alpha, or more ('l1' and 'l2' aside). What a wider one gives may be nothing
+    where others hold alpha too, or for the smallest step only: ``explain`` solves for that.
+
+    """
+    grasp, joints = solution.grasp, solution.grasp.joint_limits
+    worth = solution.dalpha_dmax_force * grasp.max_normal_forces
+    if joints is not None:
+        worth = np.append(worth, solution.dalpha_dmax_torque * joints.max_torques)
+    most = float(worth.max())
+    if not most > NEGLIGIBLE * max(solution.alpha, LEAST * solution.size):
+        return {}
+    return {name_of(grasp, i): reason(grasp, solution.local_multipliers, i)
+            for i in np.flatnonzero(worth >= (1.0 - ALIKE) * most).tolist()}
 
 
-def name_of(grasp: Grasp, i: int | None) -> str:
-    """Name of a contact, or of a joint counted on behind them; '' for None."""
-    if i is None:
-        return ''
+def name_of(grasp: Grasp, i: int) -> str:
+    """Name of a contact, or of a joint counted on behind them."""
     if i < len(grasp) or grasp.joint_limits is None:
         return grasp.name_of(i)
     return grasp.joint_limits.names[i - len(grasp)]
 
 
-def reason(grasp: Grasp, h: Array, i: int | None) -> str:
+def reason(grasp: Grasp, h: Array, i: int) -> str:
     """Tell whether friction is most of what a stronger press of contact i is worth."""
-    if i is None:
-        return ''
     if i >= len(grasp):
         return 'joint'
     return 'slip' if friction_worth(grasp, h)[i] >= abs(h[i, 2]) else 'cap'

@@ -60,8 +60,14 @@ def smooth_slopes(solution: Solution) -> Slopes:
                   np.einsum('kij,ki->kj', R, solution.dalpha_drotation))
 
 
-def one_sided_slopes(alpha: Callable[[Grasp], float], grasp: Grasp) -> tuple[Slopes, Slopes]:
-    """Return slopes (forward, backward) as differences of ``alpha``, a function of a grasp."""
+def one_sided_slopes(alpha: Callable[[Grasp], float], grasp: Grasp,
+                     noise: float = 0.0) -> tuple[Slopes, Slopes]:
+    """
+    Return slopes (forward, backward) as differences of ``alpha``, a function of a grasp.
+
+    Differences up to ``noise`` count as none.
+
+    """
     here, k = alpha(grasp), len(grasp)
     sides = []
     for sign in (1.0, -1.0):
@@ -73,7 +79,7 @@ def one_sided_slopes(alpha: Callable[[Grasp], float], grasp: Grasp) -> tuple[Slo
                 if h != 0.0 and can_step(grasp, i, field, 2.0 * h):
                     near, far = (alpha(changed(grasp, i, field, n * h, axis)) for n in (1, 2))
                     rise = 2.0 * near - 1.5 * here - 0.5 * far
-                    if abs(rise) > RESOLUTION * here:
+                    if abs(rise) > max(RESOLUTION * here, noise):
                         values[i, axis] = rise / h
             found[field] = values if values.shape[1] == 3 else values[:, 0]
         sides.append(Slopes(**found))

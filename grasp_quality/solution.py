@@ -15,8 +15,9 @@ from grasp_quality import sensitivity
 from grasp_quality.arrays import Array, Bools, frozen
 from grasp_quality.force_center import ForceCenter
 from grasp_quality.grasp import Grasp
-from grasp_quality.proof import NO_JOINTS, Proof
-from grasp_quality.status import Answer, ForceAnswer, Status
+from grasp_quality.proof import NO_JOINTS, Proof, ZERO_TOLERANCE
+from grasp_quality.remarks import remark
+from grasp_quality.status import Answer, ForceAnswer, OneLine, Status
 import numpy as np
 
 NO_FORCES = frozen(np.zeros((0, 4)))
@@ -60,6 +61,8 @@ class Solution(ForceAnswer):
         eps of eq. (11); in the unit of alpha.
     center : ForceCenter or None
         Of forces with an ``alpha_reserve``; where the search for the next contacts may begin.
+    size : float
+        a0, the largest alpha that the caps alone would allow; 0 when infeasible.
 
     """
 
@@ -80,6 +83,17 @@ class Solution(ForceAnswer):
     joint_multiplier: Array
     barrier_weight: float = 0.0
     center: ForceCenter | None = None
+    size: float = 0.0
+
+    @property
+    def powerless(self) -> bool:
+        """Whether alpha is zero as far as a proof can tell: nothing of the task is applied."""
+        return self.feasible and self.alpha_upper <= ZERO_TOLERANCE * self.size
+
+    @property
+    def remark(self) -> str:
+        """Say why alpha is pinned, or zero; '' where it means what it says."""
+        return remark(self.pinned, self.powerless)
 
     @property
     def alpha_interval(self) -> tuple[float, float]:
@@ -128,21 +142,19 @@ class Solution(ForceAnswer):
         return frozen(sensitivity.rotation_slope(self))
 
     @cached_property
+    def limited_by(self) -> dict[str, str]:
+        """Contacts, or joints, whose limits are worth most to the task, each with its reason."""
+        return sensitivity.limited_by(self)
+
+    @property
     def limiting_contact(self) -> str:
-        """Name of the contact, or joint, whose limit is worth most to the task; '' for none."""
-        return sensitivity.name_of(self.grasp, self._limit)
+        """Name of the first of ``limited_by``; '' for none."""
+        return next(iter(self.limited_by), '')
 
-    @cached_property
+    @property
     def limiting_reason(self) -> str:
-        """Why: 'slip' (a larger cap helps mostly by friction), 'cap', 'joint', or '' for none."""
-        return sensitivity.reason(self.grasp, self.local_multipliers, self._limit)
-
-    @cached_property
-    def _limit(self) -> int | None:
-        worth = self.dalpha_dmax_force * self.grasp.max_normal_forces
-        if self.grasp.joint_limits is not None:
-            worth = np.append(worth, self.dalpha_dmax_torque * self.grasp.joint_limits.max_torques)
-        return sensitivity.limit(worth, self.alpha)
+        """Reason of the first of ``limited_by``: 'slip', 'cap', 'joint', or '' for none."""
+        return next(iter(self.limited_by.values()), '')
 
     @cached_property
     def local_multipliers(self) -> Array:
@@ -208,7 +220,7 @@ class PolytopeSolution(Answer):
 
 
 @dataclass(frozen=True, eq=False)
-class WrenchMap:
+class WrenchMap(OneLine):
     """
     Alpha for many directions (Fig. 3b).
 

@@ -21,7 +21,8 @@ from grasp_quality.exceptions import SolverError
 from grasp_quality.grasp import Grasp
 from grasp_quality.infeasibility import infeasibility_margin, INFEASIBILITY_TOLERANCE
 from grasp_quality.problem import ConicProblem, NO_WRENCH
-from grasp_quality.proof import GAP_TOLERANCE, held, NO_JOINTS, Proof, prove
+from grasp_quality.proof import (
+    GAP_TOLERANCE, held, NO_JOINTS, Proof, prove, ZERO_TOLERANCE)
 from grasp_quality.raw_answer import RawAnswer
 from grasp_quality.sensitivity import dimensional_multiplier
 from grasp_quality.solution import ConeSolution, NO_FORCES, NO_USAGE, Solution
@@ -159,7 +160,8 @@ def solve(problem: ConicProblem, time_limit_s: Limit = None) -> Solution:
         forces=forces, cone_usage=frozen(np.where(is_loaded, proof.cone_usage, 0.0)),
         proof=proof, multiplier=dimensional_multiplier(problem, proof.multiplier),
         bound_multiplier=frozen(proof.bound_multiplier * unit),
-        reference_forces=forces, joint_multiplier=_joint_multiplier(problem, proof))
+        reference_forces=forces, joint_multiplier=_joint_multiplier(problem, proof),
+        size=proof.size * unit)
 
 
 def task_share(problem: ConicProblem, values: Array, alpha_upper: float) -> tuple[float, Array]:
@@ -196,8 +198,7 @@ def _lower_end(problem: ConicProblem, alpha: float, time_limit_s: Limit) -> tupl
     lower = min(max(float(optimum.values[0]), 0.0) * unit, alpha)
     load = problem.scaled_external_wrench
     # against the load's own size, as far as a proof to 1e-9 a0 can tell it from zero
-    noise = max(GAP_TOLERANCE * float(np.sqrt(load @ load)),
-                2e-3 * GAP_TOLERANCE * problem.reach)
+    noise = max(GAP_TOLERANCE * float(np.sqrt(load @ load)), ZERO_TOLERANCE * problem.reach)
     if lower <= unit * noise:
         return 0.0, True
     return lower, False

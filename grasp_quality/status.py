@@ -2,9 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """What every answer can be asked: whether there are forces, and how far they are from slip."""
 
+from __future__ import annotations
+
+import dataclasses
 import enum
+from typing import Any, TYPE_CHECKING
 
 from grasp_quality.arrays import Array
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 
 class Status(enum.Enum):
@@ -15,7 +22,24 @@ class Status(enum.Enum):
     INFEASIBLE = 'infeasible'
 
 
-class Answer:
+class OneLine:
+    """A dataclass that ``print`` shows in one line; ``repr`` has its arrays and its grasp too."""
+
+    def __str__(self: DataclassInstance) -> str:
+        """State the name, the status and the single numbers."""
+        single = ((field.name, getattr(self, field.name)) for field in dataclasses.fields(self))
+        told = ', '.join(f'{name}={_told(value)}' for name, value in single
+                         if isinstance(value, (Status, bool, int, float)))
+        return f'{type(self).__name__}({told}, ...)'
+
+
+def _told(value: Any) -> str:
+    if isinstance(value, Status):
+        return value.name
+    return f'{value:.6g}' if isinstance(value, float) else str(value)
+
+
+class Answer(OneLine):
     """An answer with a status."""
 
     status: Status

@@ -31,7 +31,9 @@ def answer_row(grasp: Grasp, answer: Answer) -> Row:
     row = {
         'status': answer.status.name, 'alpha': answer.alpha, 'alpha_upper': answer.alpha_upper,
         'alpha_lower': answer.alpha_lower, 'holdable': answer.holdable, 'pinned': answer.pinned,
-        'friction_margin': answer.friction_margin, 'limiting_contact': answer.limiting_contact,
+        'powerless': answer.powerless, 'remark': answer.remark,
+        'friction_margin': answer.friction_margin, 'limited_by': answer.limited_by,
+        'limiting_contact': answer.limiting_contact,
         'limiting_reason': answer.limiting_reason, 'wrench': answer.wrench.tolist(),
         'forces': force_rows(grasp, answer.forces, answer.cone_usage),
         'dalpha_dexternal_wrench': answer.dalpha_dexternal_wrench.tolist(),

@@ -15,8 +15,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-REASONS = {'slip': 'by slip: more friction or a higher cap there would help most',
-           'cap': 'by its cap: a higher cap there would help most', '': ''}
+REASONS = {'slip': 'by slip', 'cap': 'by its cap', 'joint': 'by its torque limit'}
 DUST = 1e-6  # share of the largest force that a proof does not tell from zero
 NO_MARGIN = 0.001  # of the friction cone, below which forces stand on its edge
 
@@ -74,21 +73,38 @@ def _print_one(console: Console, row: Row) -> None:
 
 def _facts(row: Row) -> Iterator[tuple[str, str]]:
     yield 'status', row['status']
-    yield 'alpha', f'{row["alpha"]:.6g} times the task (proved: at most {row["alpha_upper"]:.6g})'
+    if row['powerless']:
+        yield 'alpha', row['remark'].removeprefix('alpha is ')
+    else:
+        yield ('alpha',
+               f'{row["alpha"]:.6g} times the task (proved: at most {row["alpha_upper"]:.6g})')
     if not row['holdable']:
-        yield 'alpha_lower', f'{row["alpha_lower"]:.6g}: below it the load cannot be held'
-    if row['pinned']:
-        yield 'pinned', 'alpha is fixed by the load: the grasp cannot produce this task at all'
+        yield ('alpha_lower', f'{row["alpha_lower"]:.6g}: the load alone is not held, alpha must '
+               f'lie between {row["alpha_lower"]:.6g} and {row["alpha"]:.6g}')
+    if row['pinned'] and not row['powerless']:
+        yield 'pinned', row['remark'].removeprefix('alpha is pinned: ')
     if 'alpha_axis' in row:
         yield 'alpha_axis', f'{row["alpha_axis"]:.6g} along the bare axis of the cone'
     if row.get('alpha_worst') is not None:
         yield 'alpha_worst', f'{row["alpha_worst"]:.6g} in the worst sampled direction of it'
-    yield 'wrench', numbers(row['wrench']) + ' [N, N m]'
+    if not row['powerless']:
+        yield 'wrench', numbers(row['wrench']) + ' [N, N m]'
     edge = ': the forces stand on the edge of slipping, see --barrier-weight'
     yield ('friction margin', f'{row["friction_margin"]:.1%}'
            + (edge if row['friction_margin'] < NO_MARGIN else ''))
-    if row['limiting_contact']:
-        yield 'limited by', f'{escape(row["limiting_contact"])}, {REASONS[row["limiting_reason"]]}'
+    if row['limited_by']:
+        yield 'limited by', escape(limits(row['limited_by']))
+
+
+def limits(limited_by: dict[str, str]) -> str:
+    """Name what limits the task most, and how; several when they do so alike."""
+    names, ways = list(limited_by), [REASONS[reason] for reason in limited_by.values()]
+    if len(names) == 1:
+        return f'{names[0]}, {ways[0]}'
+    if len(set(ways)) > 1:
+        names = [f'{name} ({way})' for name, way in zip(names, ways)]
+    together = f'{", ".join(names[:-1])} and {names[-1]} alike'
+    return together if len(set(ways)) > 1 else f'{together}, {ways[0]}'
 
 
 def numbers(values: NDArray[np.float64] | list[float]) -> str:

@@ -104,7 +104,7 @@ def _one(sample: Sample, barrier_weight: float) -> Answered:
         scene, task = _question(sample)
         answer = evaluate(scene.grasp, task, sample.load, barrier_weight)
         solution, _ = governing(task, answer)
-        code, words = status_code(solution.status, pinned=solution.pinned)
+        code, words = status_code(solution.status, remark=solution.remark)
         return _row(sample, scene, code, words, solution.alpha, solution.alpha_upper,
                     solution.forces)
     except Exception as exc:  # a boundary: one bad sample never ends the reading

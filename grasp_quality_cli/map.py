@@ -7,12 +7,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from grasp_quality import wrench_map
+from grasp_quality import Grasp, wrench_map
 from grasp_quality.directions import force_grid
+from grasp_quality.proof import ZERO_TOLERANCE
+from grasp_quality.remarks import ZERO
 from grasp_quality_cli.grasp_file import read_grasp_file
 from grasp_quality_cli.output import INFEASIBLE, print_json
 from grasp_quality_cli.task_text import ArgumentError, chosen_load, LOAD_HELP
 import numpy as np
+from numpy.typing import NDArray
 from rich.console import Console
 import typer
 
@@ -59,9 +62,19 @@ def map_grasp(
     if json:
         print_json(row)
     else:
+        alpha = without_noise(source.grasp, directions, found.alpha)
+        nothing = np.count_nonzero((alpha == 0.0) & found.feasible)
         Console(markup=False).print(
-            f'{len(directions):,} directions: from {row["alpha_min"]:.6g} to '
-            f'{row["alpha_max"]:.6g} {unit}; {np.count_nonzero(~found.feasible):,} infeasible\n'
-            f'{output}', soft_wrap=True)
+            f'{len(directions):,} directions: from {alpha.min():.6g} to {alpha.max():.6g} {unit}; '
+            f'{np.count_nonzero(~found.feasible):,} infeasible'
+            + (f'; {nothing:,} are {ZERO}: the contacts apply nothing there' if nothing else '')
+            + f'\n{output}', soft_wrap=True)
     if not found.feasible.any():
         raise typer.Exit(INFEASIBLE)
+
+
+def without_noise(grasp: Grasp, directions: NDArray[np.float64],
+                  alpha: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Set the alphas (N,) of wrenches (N, 6) to zero that a proof does not tell from it."""
+    sizes = grasp.cap_total / np.linalg.norm(grasp.scaled_wrench(directions), axis=1)
+    return np.where(alpha > ZERO_TOLERANCE * sizes, alpha, 0.0)

@@ -12,7 +12,7 @@ from msg_adapters.wrenches import fill_xyz
 def fill_explanation(response: Explain.Response, found: Explanation) -> None:
     """Write an explanation into a response; of one that is infeasible only the result."""
     solution = found.solution
-    response.result = status_result(solution.status, pinned=solution.pinned)
+    response.result = status_result(solution.status, remark=solution.remark)
     if not solution.feasible:
         return
     response.alpha, response.alpha_upper = float(solution.alpha), float(solution.alpha_upper)

@@ -37,8 +37,6 @@ CODES = (  # first match wins
 NO_FORCES = (
     'no contact forces inside the friction cones and the force bound balance the external wrench '
     'together with any share of the task')
-PINNED = ('alpha is pinned: the grasp cannot produce the task wrench at all, the external wrench '
-          'alone decides alpha')
 
 
 def error_code(error: BaseException) -> tuple[Code, str]:
@@ -50,12 +48,12 @@ def error_code(error: BaseException) -> tuple[Code, str]:
             f'internal error, please report it: {type(error).__name__}: {error}')
 
 
-def status_code(status: Status, detail: str = '', pinned: bool = False) -> tuple[Code, str]:
-    """Return the Code and the words of an answer; detail says more where it is infeasible."""
+def status_code(status: Status, detail: str = '', remark: str = '') -> tuple[Code, str]:
+    """Return the Code and the words of an answer: detail where it is infeasible, else remark."""
     if status is Status.INFEASIBLE:
         return Code.INFEASIBLE, detail or NO_FORCES
     if status is Status.OPTIMAL_NO_INTERIOR:
-        return Code.OPTIMAL, status.value
+        return Code.OPTIMAL, '; '.join(filter(None, [status.value, remark]))
     if status is Status.OPTIMAL:
-        return Code.OPTIMAL, PINNED if pinned else ''
+        return Code.OPTIMAL, remark
     return Code.SOLVER_FAILED, f'internal error, please report it: unknown status {status!r}'

@@ -13,9 +13,9 @@ def error_result(error: BaseException) -> ResultCode:
     return ResultCode(code=int(code), message=words)
 
 
-def status_result(status: Status, detail: str = '', pinned: bool = False) -> ResultCode:
-    """Build the ResultCode of an answer; detail says more where it is infeasible."""
-    code, words = status_code(status, detail, pinned)
+def status_result(status: Status, detail: str = '', remark: str = '') -> ResultCode:
+    """Build the ResultCode of an answer; detail is told where it is infeasible, else remark."""
+    code, words = status_code(status, detail, remark)
     return ResultCode(code=int(code), message=words)
 
 

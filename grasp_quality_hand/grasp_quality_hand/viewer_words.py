@@ -22,6 +22,7 @@ MEANINGS = {
     ResultCode.TIMED_OUT: 'The solver ran out of time.',
     ResultCode.NOT_ACTIVE: 'The node is not active.',
     ResultCode.UNDEFINED: 'The node has computed nothing yet.'}
+DIGITS = 9  # of alpha, beyond which is the solver's noise about zero
 GOOD, WARN, BAD = '#0072b2', '#b35900', '#7a1f1f'  # Okabe-Ito hues, dark enough for white text
 
 
@@ -44,7 +45,7 @@ def status(picture: Picture, target: str, count: int = 0) -> str:
 def verdict(quality: GraspQuality) -> str:
     """Say what an OPTIMAL answer means."""
     can = 'The grasp can apply' if quality.alpha >= 1.0 else 'The grasp can only apply'
-    text = f'OPTIMAL. {can} {quality.alpha:.3g} times the task'
+    text = f'OPTIMAL. {can} {round(quality.alpha, DIGITS):.3g} times the task'
     if quality.limiting_contact:
         text += f', limited by {quality.limiting_contact}'
     if not quality.holdable:

@@ -91,6 +91,9 @@ def test_an_answer_in_words():
     weak.quality.alpha, weak.quality.holdable = 0.5, False
     words = status(take_picture(weak, DEFAULTS, NOW), '/grasp_quality')
     assert 'can only apply 0.5 times' in words and 'would not hold the load' in words
+    weak.quality.alpha = 2e-25
+    words = status(take_picture(weak, DEFAULTS, NOW), '/grasp_quality')
+    assert 'can only apply 0 times' in words and 'e-25' not in words
 
 
 def test_the_table_has_a_row_for_each_contact():

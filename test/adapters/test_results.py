@@ -5,6 +5,7 @@
 from grasp_quality import (
     GraspQualityError, InvalidContactError, InvalidGraspError, InvalidTaskError, SolverError,
     SolverTimeoutError, Status)
+from grasp_quality.remarks import remark
 from grasp_quality_msgs.msg import ResultCode
 from msg_adapters import errors
 from msg_adapters.result_codes import Code, status_code
@@ -41,9 +42,12 @@ def test_optimal_needs_no_words_but_where_margin_is_missing():
     assert flat.code == ResultCode.OPTIMAL and 'margin' in flat.message
 
 
-def test_a_pinned_alpha_is_told():
-    pinned = status_result(Status.OPTIMAL, pinned=True)
+def test_a_remark_is_told_with_the_answer():
+    pinned = status_result(Status.OPTIMAL, remark=remark(pinned=True, powerless=False))
     assert pinned.code == ResultCode.OPTIMAL and pinned.message.startswith('alpha is pinned')
+    flat = status_result(Status.OPTIMAL_NO_INTERIOR, remark='and more')
+    assert 'margin' in flat.message and flat.message.endswith('; and more')
+    assert status_result(Status.INFEASIBLE, 'why', 'no answer').message == 'why'
     assert status_code(Status.OPTIMAL) == (Code.OPTIMAL, '')
 
 

@@ -5,6 +5,7 @@
 import json
 
 from grasp_quality import evaluate
+from grasp_quality_cli.answer_table import limits
 from grasp_quality_cli.grasp_file import read_grasp_file
 import pytest
 from tolerances import SOLVER
@@ -18,6 +19,35 @@ def test_pinch_has_its_closed_form(run, examples):
     assert row['alpha'] == pytest.approx(5.0, rel=SOLVER)
     assert [force['force'][2] for force in row['forces']] == pytest.approx([10.0] * 2, rel=SOLVER)
     assert row['limiting_reason'] == 'slip'
+
+
+def test_contacts_that_limit_alike_are_told_together(run, examples):
+    """Neither finger alone can raise the lift, so that no advice may name one of them."""
+    code, printed, _ = run('evaluate', examples / 'pinch.yaml')
+    assert code == 0 and 'left and right alike, by slip' in printed and 'help' not in printed
+    row = json.loads(run('evaluate', examples / 'pinch.yaml', '--json')[1])
+    assert row['limited_by'] == {'left': 'slip', 'right': 'slip'}
+    assert limits({'a': 'cap'}) == 'a, by its cap'
+    assert limits({'a': 'slip', 'b': 'cap', 'c': 'slip'}) == (
+        'a (by slip), b (by its cap) and c (by slip) alike')
+
+
+def test_a_task_that_the_contacts_cannot_produce_is_told_as_zero(run, examples):
+    code, printed, _ = run('evaluate', examples / 'pinch.yaml', '--task', '0 0 0 1 0 0')
+    words = ' '.join(printed.split())
+    assert code == 0 and "0 (to the solver's accuracy): the contacts cannot produce" in words
+    assert 'e-' not in words and 'limited by' not in words and 'load' not in words
+    row = json.loads(run(
+        'evaluate', examples / 'pinch.yaml', '--task', '0 0 0 1 0 0', '--json')[1])
+    assert row['powerless'] and row['pinned'] and row['limited_by'] == {}
+
+
+def test_a_load_that_is_not_held_alone_is_told(run, examples):
+    """Friction carries 10 N of 12 N, so that the task has to push 2 N along, or up to 22 N."""
+    code, printed, _ = run('evaluate', examples / 'pinch.yaml', '--task', '0 0 -2 0 0 0',
+                           '--external-wrench', '0 0 -12 0 0 0')
+    words = ' '.join(printed.split())
+    assert code == 0 and 'the load alone is not held' in words and 'between 1 and 11' in words
 
 
 @pytest.mark.parametrize('task', ['lift', '0 0 2 0 0 0', '0,0,2,0,0,0', None])

@@ -58,6 +58,16 @@ def test_map_of_forces_and_of_torques(run, examples, tmp_path):
         assert bottom is None or row['alpha_min'] <= 0.01
 
 
+def test_directions_that_the_contacts_cannot_serve_are_told_as_zero(run, examples, tmp_path):
+    """Two point contacts turn nothing about their line, nor any torque with a part along it."""
+    code, printed, _ = run('map', examples / 'pinch.yaml', '-o', tmp_path / 'map.png', '--torque',
+                           '--resolution', 6)
+    assert code == 0 and printed.startswith('72 directions: from 0 to 0.2 N m; 0 infeasible; 60 ')
+    code, printed, _ = run('map', examples / 'pinch.yaml', '-o', tmp_path / 'map.png',
+                           '--resolution', 6)
+    assert code == 0 and 'accuracy' not in printed
+
+
 def test_a_map_of_what_cannot_be_held_is_no(run, examples, tmp_path):
     code, printed, _ = run('map', examples / 'pinch.yaml', '-o', tmp_path / 'map.png',
                            '--external-wrench', '0 0 -50 0 0 0', '--resolution', 4, '--json')

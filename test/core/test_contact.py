@@ -55,6 +55,11 @@ def test_model_lets_its_coefficients_act(model, mu, gamma):
     assert contact.effective_torsional_friction == gamma
 
 
+@pytest.mark.parametrize('model', ContactModel)
+def test_a_model_may_be_given_by_its_name(model):
+    assert Contact(position=ORIGIN, normal=UP, model=model.value).model is model
+
+
 @pytest.mark.parametrize('fields, message', [
     ({'normal': None}, 'exactly one of normal and rotation, got neither'),
     ({'rotation': np.eye(3)}, 'exactly one of normal and rotation, got both'),
@@ -65,7 +70,8 @@ def test_model_lets_its_coefficients_act(model, mu, gamma):
     ({'normal': None, 'rotation': 2 * np.eye(3)}, 'rotation must be a right-handed orthonormal'),
     ({'normal': None, 'rotation': np.diag([1.0, 1.0, -1.0])}, 'rotation must be a right-handed'),
     ({'normal': None, 'rotation': np.eye(2)}, r'rotation must have shape \(3, 3\)'),
-    ({'model': 'PCWF'}, "model must be one of .*FPC.*PCWF.*SFCE.* got 'PCWF'"),
+    ({'model': 'RUBBER'}, r"model must be one of \['FPC', 'PCWF', 'SFCE'\].* got 'RUBBER'"),
+    ({'model': [1]}, r'model must be one of .*, got \[1\]'),
     ({'friction': -0.1}, 'friction must be at least 0, got -0.1'),
     ({'friction': np.nan}, 'friction must be finite'),
     ({'torsional_friction': -0.1}, 'torsional_friction must be at least 0'),

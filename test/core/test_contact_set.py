@@ -61,9 +61,14 @@ def test_error_names_contact_and_rule(contacts, field, value, message):
     ('friction', [0.5] * 4, r'friction must have shape \(5\)'),
     ('positions', np.full((5, 3), np.nan), 'positions must be finite'),
     ('fingers', ['a'] * 4, 'fingers must have one entry for each of 5 contacts'),
-    ('models', ['PCWF'] * 5, 'model must be one of'),
+    ('models', ['PCWF'] * 4 + ['RUBBER'], r"contact 4 .*model must be one of .* got 'RUBBER'"),
     ('models', [ContactModel.FPC] * 6, 'models must have one entry'),
 ])
 def test_error_names_field_and_rule(contacts, field, value, message):
     with pytest.raises(InvalidContactError, match=message):
         dataclasses.replace(contacts, **{field: value})
+
+
+def test_models_may_be_given_by_their_names(contacts):
+    named = dataclasses.replace(contacts, models=[model.value for model in contacts.models])
+    assert named.models == contacts.models

@@ -129,7 +129,9 @@ def test_infeasible_explains_itself():
 
 def test_a_useless_grasp_promises_nothing():
     found = explain(single(), TaskWrench(TZ))
-    assert found.solution.alpha == pytest.approx(0.0, abs=SOLVER) and found.text
+    assert found.solution.alpha == pytest.approx(0.0, abs=SOLVER)
+    assert 'alpha is pinned to 0' in found.text.lower() and 'limited by' not in found.text
+    assert not found.shares.any() and found.best_change is None
     assert all(np.isfinite(getattr(found.forward, field)).all() for field in FIELDS)
 
 

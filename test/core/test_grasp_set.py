@@ -44,6 +44,17 @@ def test_arrays_make_the_grasps_that_contacts_make(bound):
                     finger=fingers[j]) for j in range(3)], bound))
 
 
+@pytest.mark.parametrize('model', ['FPC', 'SFCE', ['FPC', 'SFCE', 'PCWF', 'FPC']])
+def test_models_may_be_given_by_their_names(model):
+    """Four contacts: a name has as many letters, and must not be read letter by letter."""
+    rng = np.random.default_rng(3)
+    positions, normals = rng.normal(size=(2, 2, 4, 3))
+    kinds = ContactModel(model) if isinstance(model, str) else [ContactModel(m) for m in model]
+    named, plain = (GraspSet.of_arrays(positions, normals, model=m, torsional_friction=0.1)
+                    for m in (model, kinds))
+    assert all(same(one, other) for one, other in zip(named, plain))
+
+
 def test_variations_keep_what_is_left_out():
     grasp = random_grasp(np.random.default_rng(2), count=5, bound='finger')
     assert all(same(grasp, other) for other in GraspSet.varied(grasp, count=3))

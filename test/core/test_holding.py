@@ -68,6 +68,30 @@ def test_a_load_that_no_forces_balance():
     assert pulled.peak == np.inf and pulled.violation == pytest.approx(1.0, rel=SOLVER)
 
 
+@pytest.mark.parametrize('bound', BOUNDS)
+def test_what_is_unbalanced_is_the_rest_of_a_load_that_can_be_held(bound):
+    for seed in range(8):
+        rng = np.random.default_rng(seed)
+        grasp = random_grasp(rng, bound=bound)
+        load = 20.0 * random_load(rng, grasp)
+        held = minimum_forces(grasp, load)
+        if held.feasible:
+            assert not held.unbalanced.any() and held.reason == ''
+            continue
+        size = np.linalg.norm(grasp.scaled_wrench(held.unbalanced)) * grasp.force_scale
+        assert size == pytest.approx(held.violation, rel=SOLVER)
+        rest = minimum_forces(grasp, load - held.unbalanced)
+        assert rest.peak <= 1.0 + 10.0 * SOLVER
+
+
+def test_the_reason_has_the_units_of_what_is_missing():
+    twist = minimum_forces(antipodal(0.5), 0.7 * TX)
+    assert 'whatever the caps' in twist.reason and '(0.7, 0, 0) N m' in twist.reason
+    assert 'inf' not in twist.reason and ' N is' not in twist.reason
+    heavy = minimum_forces(antipodal(0.5), -1.5 * FY)
+    assert '1.5 times the caps' in heavy.reason and '(0, -0.5, 0) N is' in heavy.reason
+
+
 def test_violation_in_newtons_whatever_the_caps():
     grasp = cube_of_eight(0.5)
     for cap in (1e-3, 1e3):

@@ -6,7 +6,7 @@ import dataclasses
 
 from benchmarks.random_grasps import BOUNDS, random_grasp, random_joint_limits, random_load
 from grasp_quality import Contact, ContactModel, evaluate, Grasp, TaskWrench
-from known_grasps import antipodal, FX, FY, single, three_finger
+from known_grasps import antipodal, FX, FY, single, three_finger, TX
 import numpy as np
 import pytest
 from tolerances import SOLVER
@@ -109,6 +109,56 @@ def test_weaker_finger_limits_a_lift():
     solution = evaluate(antipodal(0.5, caps=(1.0, 0.3)), TaskWrench(FY))
     assert solution.limiting_contact == 'right'
     assert solution.limiting_reason == 'slip'
+
+
+@pytest.mark.parametrize('task', [FY, FY + 0.3 * FX])
+def test_what_is_alike_is_told_together_in_any_order(task):
+    """Two fingers share a lift; the solver's rounding must not choose between them."""
+    pair = antipodal(0.5)
+    for contacts in (list(pair.contacts), list(pair.contacts)[::-1]):
+        solution = evaluate(Grasp(contacts), TaskWrench(task))
+        assert set(solution.limited_by) <= {'left', 'right'}
+        assert solution.limiting_contact == next(iter(solution.limited_by))
+    assert evaluate(pair, TaskWrench(FY)).limited_by == {'left': 'slip', 'right': 'slip'}
+    assert evaluate(pair, TaskWrench(FY)).limiting_contact == 'left'
+
+
+@pytest.mark.parametrize('seed', range(8))
+def test_a_tighter_limit_takes_its_part_of_alpha_or_more(seed):
+    """Alpha is concave in the caps, at kinks too: what is said to limit does."""
+    grasp, task, load = problem(seed, 'linf')
+    if seed % 2:
+        grasp, task, load = three_finger(0.5), TaskWrench(FY + 0.2 * seed * FX), None
+    solution = evaluate(grasp, task, external_wrench=load)
+    assert solution.limited_by
+    for name in solution.limited_by:
+        i = grasp.names.index(name)
+        for share in (0.05, 0.5):
+            step = -share * grasp.max_normal_forces[i]
+            tighter = evaluate(
+                with_field(grasp, i, 'max_normal_force', step), task, external_wrench=load)
+            assert tighter.alpha <= solution.alpha + solution.dalpha_dmax_force[i] * step + (
+                SOLVER * solution.size)
+
+
+@pytest.mark.parametrize('force, length', [(1.0, 1.0), (1e-3, 1e-3), (1e3, 10.0)])
+@pytest.mark.parametrize('size', [1e-6, 1.0, 1e6])
+def test_powerless_is_what_applies_nothing_in_any_units(force, length, size):
+    pair = antipodal(0.5, caps=(force, force), reach=length)
+    for wrench, powerless, pinned in ((TX, True, True), (FY, False, False)):
+        solution = evaluate(pair, TaskWrench(size * wrench))
+        assert (solution.powerless, solution.pinned) == (powerless, pinned)
+        assert bool(solution.remark) == powerless == (not solution.limited_by)
+        assert 'external wrench' not in solution.remark
+    away = evaluate(single(cap=force), TaskWrench(-size * FX))
+    assert away.powerless and not away.pinned and 'apply any' in away.remark
+
+
+def test_an_alpha_of_the_load_alone_is_pinned_and_not_powerless():
+    solution = evaluate(antipodal(0.5), TaskWrench(TX), external_wrench=0.3 * TX)
+    assert not solution.powerless and 'external wrench alone decides' in solution.remark
+    infeasible = evaluate(single(), TaskWrench(FX), external_wrench=-2.0 * FX)
+    assert not infeasible.powerless and infeasible.remark == ''
 
 
 def test_nothing_limits_where_nothing_helps():

@@ -39,6 +39,9 @@ def test_task_wrench_has_its_closed_form(client, poses, task, alpha):
     assert answer.result.code == ResultCode.OPTIMAL
     assert answer.alpha == pytest.approx(alpha, rel=SOLVER, abs=1e-7)
     assert answer.alpha <= answer.alpha_upper <= answer.alpha + 1e-5
+    assert ("0 (to the solver's accuracy)" in answer.result.message) == (alpha == 0.0)
+    assert (answer.limiting_contact == '') == (alpha == 0.0)
+    assert 'external wrench' not in answer.result.message
     assert (answer.alpha_lower, answer.holdable) == (0.0, True)
     assert 0.0 < answer.solve_time.sec + 1e-9 * answer.solve_time.nanosec < 1.0
 
@@ -135,7 +138,7 @@ def test_minimum_forces_without_a_load_are_zero(client):
 
 
 @pytest.mark.parametrize('load, peak, words', [
-    (wrench(fz=-12.0), 1.2, '1.2 times the caps'), (wrench(tx=1.0), 0.0, 'unbalanced')])
+    (wrench(fz=-12.0), 1.2, '1.2 times the caps'), (wrench(tx=1.0), 0.0, '(1, 0, 0) N m')])
 def test_minimum_forces_say_how_much_is_missing(client, load, peak, words):
     answer = client.call(srv.MinimumForces, 'minimum_forces', contacts=contact_array(ANTIPODAL),
                          external_wrench=load)
