@@ -78,6 +78,12 @@ class BagWriter:
         """Close the bag."""
         self._writer.close()
 
+    def add(self, topic: str, msgtype: str) -> None:
+        """Add a topic, if it is not there, which may stay without messages."""
+        if topic not in self._connections:
+            self._connections[topic] = self._writer.add_connection(
+                topic, msgtype, typestore=STORE)
+
     def write(self, topic: str, time_ns: int, message: Any) -> None:
         """Write a message."""
         self.write_raw(topic, time_ns, message.__msgtype__, STORE.serialize_cdr(
@@ -85,9 +91,7 @@ class BagWriter:
 
     def write_raw(self, topic: str, time_ns: int, msgtype: str, data: Any) -> None:
         """Write bytes as if they were a message of a type."""
-        if topic not in self._connections:
-            self._connections[topic] = self._writer.add_connection(
-                topic, msgtype, typestore=STORE)
+        self.add(topic, msgtype)
         self._writer.write(self._connections[topic], time_ns, data)
 
 

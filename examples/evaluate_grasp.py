@@ -3,7 +3,7 @@
 """
 Ask how far two fingers that pinch a 4 cm cube can lift it against its weight of 2 N.
 
-With a node running (grasp_quality_node, or make demo DEMO_FLAGS=--keep):
+With a node running (grasp_quality_node, or make demo DEMO_FLAGS=--keep), after . ./env.sh:
 
     python3 examples/evaluate_grasp.py
 

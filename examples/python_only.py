@@ -3,7 +3,7 @@
 """
 The whole way without ROS: contacts in, alpha and forces out, and what would make the grasp better.
 
-    python3 examples/python_only.py
+    . ./env.sh && python3 examples/python_only.py
 
 Two fingers pinch a 4 cm cube that weighs 2 N, with friction 0.5 and at most 10 N each.
 

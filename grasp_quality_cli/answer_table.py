@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from grasp_quality import Status, TaskCone, TaskEllipsoid, TaskPolytope
 from grasp_quality_cli.answer_rows import Row
 from grasp_quality_cli.grasp_file import Task
+from grasp_quality_cli.printing import print_table
 import numpy as np
 from numpy.typing import NDArray
 from rich.console import Console
@@ -17,6 +18,8 @@ from rich.table import Table
 
 REASONS = {'slip': 'by slip', 'cap': 'by its cap', 'joint': 'by its torque limit'}
 DUST = 1e-6  # share of the largest force that a proof does not tell from zero
+TINY = 1e-300  # smaller ones have no fourth digit
+DIGITS = 4  # of the largest force or moment
 NO_MARGIN = 0.001  # of the friction cone, below which forces stand on its edge
 
 
@@ -61,14 +64,16 @@ def _print_one(console: Console, row: Row) -> None:
     for name, value in _facts(row):
         facts.add_row(name, value)
     table = Table(header_style='bold')
-    for name in ('contact', 't1 [N]', 't2 [N]', 'normal [N]', 'moment [N m]', 'cone used',
-                 'cap used'):
-        table.add_column(name, justify='left' if name == 'contact' else 'right', no_wrap=True)
+    for name in ('contact', 't1\n[N]', 't2\n[N]', 'normal\n[N]', 'moment\n[N m]', 'cone\nused',
+                 'cap\nused'):
+        table.add_column(name, justify='left' if name == 'contact' else 'right',
+                         no_wrap=name != 'contact')
     forces = np.array([contact['force'] for contact in row['forces']])
     for contact, force in zip(row['forces'], rounded(forces)):
         table.add_row(escape(contact['name']), *(f'{value:.4g}' for value in force),
                       f'{contact["cone_usage"]:.1%}', f'{contact["cap_usage"]:.1%}')
-    console.print(facts, table, sep='\n')
+    console.print(facts)
+    print_table(console, table)
 
 
 def _facts(row: Row) -> Iterator[tuple[str, str]]:
@@ -108,10 +113,29 @@ def limits(limited_by: dict[str, str]) -> str:
 
 
 def numbers(values: NDArray[np.float64] | list[float]) -> str:
-    """Write numbers for people, without the dust of the solver."""
+    """Write a wrench for people, without the dust of the solver."""
     return ' '.join(f'{value:.4g}' for value in rounded(np.asarray(values)))
 
 
 def rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Set what is below DUST of the largest to zero."""
-    return np.where(np.abs(values) <= DUST * np.abs(values).max(initial=0.0), 0.0, values)
+    """
+    Keep of each number what stands before the fifth digit of the largest of its unit.
+
+    Parameters
+    ----------
+    values : (..., 4) or (..., 6) array
+        Contact forces [t1, t2, n, m_n], or wrenches; the first three are in N, the rest in N m.
+
+    Returns
+    -------
+    (..., 4) or (..., 6) array
+        What is below DUST of the largest of all is zero as well.
+
+    """
+    kept = np.where(np.abs(values) <= DUST * np.abs(values).max(initial=0.0), 0.0, values)
+    for unit in (kept[..., :3], kept[..., 3:]):
+        largest = np.abs(unit).max(initial=0.0)
+        if TINY < largest < np.inf:
+            digit = 10.0 ** (int(np.floor(np.log10(largest))) + 1 - DIGITS)
+            unit[:] = np.round(unit / digit) * digit + 0.0  # no minus zero
+    return kept

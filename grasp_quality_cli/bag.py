@@ -11,15 +11,16 @@ from typing import Annotated, Any
 
 from grasp_quality_cli.bag_inputs import BagInputs
 from grasp_quality_cli.bag_problems import Problems
-from grasp_quality_cli.bag_replay import contact_source, Question, replay
+from grasp_quality_cli.bag_replay import contact_source, Question, replay, require_contacts
 from grasp_quality_cli.bag_report import moment, write_report
 from grasp_quality_cli.bag_source import BagSource
 from grasp_quality_cli.bag_summary import Summary
 from grasp_quality_cli.bag_tables import FORMATS, Tables
 from grasp_quality_cli.node_settings import read_settings
 from grasp_quality_cli.output import print_json, READ_IN_PART
+from grasp_quality_cli.printing import console, print_table
 from grasp_quality_cli.task_text import (
-    ArgumentError, chosen_load, chosen_task, LOAD_HELP, TASK_HELP)
+    ArgumentError, chosen_load, chosen_task, LOAD_HELP, make_folder, NAMELESS_TASK_HELP)
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
@@ -30,7 +31,7 @@ def evaluate_bag(
         bag: Annotated[Path, typer.Argument(
             help='Folder of a rosbag2, or one of its .mcap or .db3 files.')],
         task: Annotated[str | None, typer.Option(
-            help=TASK_HELP + ' Without it: as recorded on <node>/task_wrench.',
+            help=NAMELESS_TASK_HELP + ' Without it: as recorded on <node>/task_wrench.',
             show_default=False)] = None,
         external_wrench: Annotated[str | None, typer.Option(
             help=LOAD_HELP + ' Without it: as recorded on <node>/external_wrench.',
@@ -64,9 +65,10 @@ def evaluate_bag(
     source = BagSource(bag)
     question = Question(
         read_settings(params, assignments or [], node, contact_source(source, node)), node,
-        None if task is None else chosen_task(task, {}), chosen_load(external_wrench, None))
+        None if task is None else chosen_task(task, None), chosen_load(external_wrench, None))
     folder = output or bag.with_name(f'{bag.stem}_grasp_quality')
-    folder.mkdir(parents=True, exist_ok=True)
+    require_contacts(source, question)
+    make_folder(folder)
     with Problems(folder / 'problems.csv') as problems:
         wants = BagInputs(question.settings, node, question.task, question.load, problems).wants
         with Tables(folder, table_format) as tables, _progress(source.total(wants)) as advance:
@@ -80,7 +82,7 @@ def evaluate_bag(
             print_json({**summary.row(), 'problems': _problem_rows(problems),
                         'damage': source.damage, 'files': [str(file) for file in files]})
         else:
-            _print(Console(markup=False), summary, problems, files)
+            _print(console(), summary, problems, files)
     if source.damage or not summary.samples:
         raise typer.Exit(READ_IN_PART)
 
@@ -88,10 +90,10 @@ def evaluate_bag(
 @contextmanager
 def _progress(total: int | None) -> Iterator[Callable[[int], None]]:
     """Show a bar on standard error, where that is a terminal."""
-    console = Console(stderr=True, markup=False)
+    shown = Console(stderr=True, markup=False)
     columns = (TextColumn('reading'), BarColumn(), MofNCompleteColumn(), TextColumn('messages'),
                TimeRemainingColumn())
-    with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
+    with Progress(*columns, console=shown, disable=not shown.is_terminal) as progress:
         bar = progress.add_task('reading', total=total)
         yield lambda count: progress.update(bar, advance=count)
 
@@ -115,23 +117,31 @@ def _problem_rows(problems: Problems) -> list[dict[str, Any]]:
 
 
 def _print(console: Console, summary: Summary, problems: Problems, files: list[Path]) -> None:
+    if summary.samples:
+        _print_summary(console, summary)
+    else:
+        console.print('no contacts that could be used, and no answers')
+    if problems.count:
+        listed = Table(title=f'{problems.count:,} problems', header_style='bold')
+        for name in ('kind', 'topic', 'count', 'first (UTC)', 'what'):
+            listed.add_column(name, no_wrap=name in ('count', 'first (UTC)'))
+        for one in _problem_rows(problems):
+            listed.add_row(one['kind'], one['topic'], f'{one["count"]:,}',
+                           moment(one['first_ns']), one['text'])
+        print_table(console, listed)
+    for file in files:
+        console.print(str(file), soft_wrap=True)
+
+
+def _print_summary(console: Console, summary: Summary) -> None:
     table = Table(header_style='bold')
     for name in ('result', 'samples', 'first reason'):
-        table.add_column(name, justify='right' if name == 'samples' else 'left')
+        table.add_column(name, justify='right' if name == 'samples' else 'left',
+                         no_wrap=name != 'first reason')
     for code, count in summary.codes.most_common():
         table.add_row(code, f'{count:,}', summary.reasons.get(code, ''))
     row = summary.row()
     console.print(f'{summary.samples:,} contact samples from {moment(summary.first_ns)} to '
-                  f'{moment(summary.last_ns)} UTC', table, sep='\n')
-    if summary.samples:
-        console.print(f'alpha from {row["alpha_min"]:.6g} to {row["alpha_max"]:.6g}')
-    if problems.count:
-        listed = Table(title=f'{problems.count:,} problems', header_style='bold')
-        for name in ('kind', 'topic', 'count', 'first (UTC)', 'what'):
-            listed.add_column(name)
-        for one in _problem_rows(problems):
-            listed.add_row(one['kind'], one['topic'], f'{one["count"]:,}',
-                           moment(one['first_ns']), one['text'])
-        console.print(listed)
-    for file in files:
-        console.print(str(file), soft_wrap=True)
+                  f'{moment(summary.last_ns)} UTC')
+    print_table(console, table)
+    console.print(f'alpha from {row["alpha_min"]:.6g} to {row["alpha_max"]:.6g}')

@@ -48,15 +48,33 @@ class Question:
 
 def contact_source(source: BagSource, node: str) -> str:
     """Name the contact_source that the bag holds; pose_array where it holds both."""
-    topics = {topic for topic, _ in source.counts}
-    for name, (topic, _) in SOURCES.items():
-        if f'{node.rstrip("/")}/{topic}' in topics:
+    topics = {name: f'{node.rstrip("/")}/{topic}' for name, (topic, _) in SOURCES.items()}
+    for name, topic in topics.items():
+        if _messages(source, topic):
             return name
-    if topics and source.total(lambda _: True) is not None:
-        raise NoBagError(
-            f'{source.path}: holds no contacts of a node {node} ({node}/contact_poses or '
-            f'{node}/contacts); --node names another; the bag holds {", ".join(sorted(topics))}')
+    _refuse_without(source, node, *topics.values())
     return 'pose_array'
+
+
+def require_contacts(source: BagSource, question: Question) -> None:
+    """Raise NoBagError where a whole bag holds no message of the contact source that is asked."""
+    topic = f'{question.node.rstrip("/")}/{SOURCES[question.settings.contact_source][0]}'
+    if not _messages(source, topic):
+        _refuse_without(source, question.node, topic)
+
+
+def _messages(source: BagSource, topic: str) -> int:
+    return sum(count for (name, _), count in source.counts.items() if name == topic)
+
+
+def _refuse_without(source: BagSource, node: str, *topics: str) -> None:
+    if source.total(lambda _: True) is None:  # of a damaged bag only the end tells
+        return
+    there = sorted({name for (name, _), count in source.counts.items() if count})
+    raise NoBagError(
+        f'{source.path}: holds no contacts of a node {node}, no messages on '
+        f'{" or ".join(topics)}: was the driver running? --node names another; the bag holds '
+        f'{"messages on " + ", ".join(there) if there else "no messages at all"}')
 
 
 def replay(source: BagSource, question: Question, tables: Tables, problems: Problems,

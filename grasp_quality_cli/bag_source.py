@@ -39,7 +39,9 @@ class WholePart:
         self.counts: Counter[tuple[str, str]] = Counter()
         for connection in self._reader.connections:
             self.counts[connection.topic, connection.msgtype] += connection.msgcount
-        self.total: int | None = self._reader.message_count
+        total = self._reader.message_count
+        # MCAP need not say how many there are of each topic
+        self.total: int | None = total if total == sum(self.counts.values()) else None
 
     def records(self, wanted: Wanted) -> Iterator[Record]:
         """Read in the order of time; BagError where the content does not hold."""

@@ -12,8 +12,8 @@ from grasp_quality_cli.answer_rows import answer_row
 from grasp_quality_cli.answer_table import print_answer
 from grasp_quality_cli.grasp_file import read_grasp_file
 from grasp_quality_cli.output import INFEASIBLE, print_json
+from grasp_quality_cli.printing import console
 from grasp_quality_cli.task_text import chosen_load, chosen_task, LOAD_HELP, TASK_HELP
-from rich.console import Console
 import typer
 
 
@@ -44,6 +44,6 @@ def evaluate_grasp(
     if json:
         print_json(row)
     else:
-        print_answer(Console(), row, chosen)
+        print_answer(console(markup=True), row, chosen)
     if answer.status is Status.INFEASIBLE:
         raise typer.Exit(INFEASIBLE)

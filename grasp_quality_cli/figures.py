@@ -9,7 +9,8 @@ from typing import Annotated
 
 from grasp_quality_cli.output import print_json
 from grasp_quality_cli.paper_numbers import numbers
-from rich.console import Console
+from grasp_quality_cli.printing import console, print_table
+from grasp_quality_cli.task_text import make_folder
 from rich.table import Table
 import typer
 
@@ -28,6 +29,7 @@ def paper_figures(
     """
     from grasp_quality_cli.paper_pictures import draw_all  # matplotlib is slow to import
 
+    make_folder(output)
     found, files = numbers(), draw_all(output)
     if json:
         print_json({'numbers': [number.row() for number in found],
@@ -35,10 +37,11 @@ def paper_figures(
         return
     table = Table(header_style='bold')
     for name in ('figure', 'what', 'expected', 'here'):
-        table.add_column(name, justify='left' if name == 'what' else 'right', no_wrap=True)
+        table.add_column(name, justify='left' if name == 'what' else 'right',
+                         no_wrap=name != 'what')
     for number in found:
         table.add_row(number.figure, number.what, f'{number.expected:.6g}',
                       f'{number.here:.6g}')
-    Console(markup=False).print(table)
+    print_table(console(), table)
     for file in files:
         print(file)

@@ -6,8 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 import sys
+from typing import Annotated
 
-from grasp_quality import GraspQualityError, SolverError
+from grasp_quality import __version__, GraspQualityError, SolverError
 from grasp_quality_cli.bag import evaluate_bag
 from grasp_quality_cli.evaluate import evaluate_grasp
 from grasp_quality_cli.figures import paper_figures
@@ -36,9 +37,18 @@ app.command('figures', epilog=EPILOG)(paper_figures)
 app.command('study', epilog=EPILOG)(study)
 
 
+def _tell_version(wanted: bool) -> None:
+    if wanted:
+        print(f'grasp-quality {__version__}')
+        raise typer.Exit
+
+
 @app.callback()
-def options() -> None:
-    """Take no options before the command; that there is this makes all commands named."""
+def options(
+        version: Annotated[bool, typer.Option(
+            '--version', callback=_tell_version, is_eager=True,
+            help='Tell the version and end.')] = False) -> None:
+    """Take the options before the command; that there is this makes all commands named."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

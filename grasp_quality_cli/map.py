@@ -13,7 +13,7 @@ from grasp_quality.proof import ZERO_TOLERANCE
 from grasp_quality.remarks import ZERO
 from grasp_quality_cli.grasp_file import read_grasp_file
 from grasp_quality_cli.output import INFEASIBLE, print_json
-from grasp_quality_cli.task_text import ArgumentError, chosen_load, LOAD_HELP
+from grasp_quality_cli.task_text import ArgumentError, chosen_load, LOAD_HELP, require_folder
 import numpy as np
 from numpy.typing import NDArray
 from rich.console import Console
@@ -47,6 +47,7 @@ def map_grasp(
 
     if output.suffix not in PICTURES:
         raise ArgumentError(f'--output must end in {", ".join(PICTURES)}, got {str(output)!r}')
+    require_folder(output)
     source = read_grasp_file(grasp)
     directions = force_grid(resolution)
     if torque:

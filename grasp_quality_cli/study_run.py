@@ -14,13 +14,13 @@ from pathlib import Path
 import time
 from typing import Any
 
-from grasp_quality_cli.study_error import StoppedError, StudyError
+from grasp_quality_cli.study_error import StoppedError
 from grasp_quality_cli.study_parts import Parts
 from grasp_quality_cli.study_report import print_summary, Report
 from grasp_quality_cli.study_rows import Chunk, Dataset
 from grasp_quality_cli.study_score import Question, score
 from grasp_quality_cli.study_workers import dask_workers, local_workers, work_off
-from grasp_quality_cli.task_text import chosen_load, chosen_task
+from grasp_quality_cli.task_text import chosen_load, chosen_task, require_folder
 
 __all__ = ['Plan', 'print_summary', 'run']
 FORMAT = 1  # of the parts and the output
@@ -51,13 +51,12 @@ class Plan:
            chunk_rows: int) -> Plan:
         """Read the command line; the arguments are those of ``study``."""
         source = Dataset.of(dataset)
-        if not output.absolute().parent.is_dir():
-            raise StudyError(f'--output {output}: there is no folder {output.parent}')
+        require_folder(output)
         question = Question(str(dataset), task, chosen_load(external_wrench, None),
                             barrier_weight, forces, ignored)
         yaml = task is not None and task.endswith(('.yaml', '.yml'))
         if task is not None and (yaml or ' ' in task.strip() or ',' in task):
-            question = replace(question, task=chosen_task(task, {}))
+            question = replace(question, task=chosen_task(task, None))
         file = dataset.stat()
         parts = Parts(output, {
             'format': FORMAT, 'dataset': dataset.name, 'size': file.st_size,

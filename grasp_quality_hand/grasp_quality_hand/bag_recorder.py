@@ -4,7 +4,7 @@
 Records what the grasp_quality node hears to an MCAP bag, for ``grasp-quality bag``.
 
 For machines without ``ros2 bag``: the ROS wheels have none. Messages are written as they come,
-not decoded. Ends on SIGINT or SIGTERM with a bag that is whole.
+not decoded. Ends on SIGINT, on SIGTERM or after ``--messages``, with a bag that is whole.
 
 """
 
@@ -33,6 +33,7 @@ TOPICS = {'contact_poses': PoseArray, 'contacts': ContactArray, 'task_wrench': W
           'external_wrench': WrenchStamped}
 MEASURED = 'contact_wrenches/'
 LOOK_S = 0.2  # between two looks for new contact names
+SILENCE_S = 5.0  # after which it says that it hears nothing
 # hears reliable publishers and best-effort ones; deep enough for a burst
 QOS = QoSProfile(depth=200, reliability=ReliabilityPolicy.BEST_EFFORT)
 
@@ -45,18 +46,32 @@ def type_name(kind: Any) -> str:
 class BagRecorder(Node):
     """Writes the input topics of one node to a bag."""
 
-    def __init__(self, target: str, writer: Writer) -> None:
+    def __init__(self, target: str, writer: Writer, most: int | None = None) -> None:
         super().__init__('grasp_quality_recorder')
-        self._target, self._writer = target.rstrip('/'), writer
+        self._target, self._writer, self._most = target.rstrip('/'), writer, most
         self._store = get_typestore(Stores.ROS2_JAZZY)
         for name, definition in OURS.items():
             self._store.register(get_types_from_msg(definition, name))
         self._topics: set[str] = set()
+        self._heard: set[str] = set()
         self.count = 0
         for name, kind in TOPICS.items():
             self._record(f'{self._target}/{name}', kind)
         self._look()
         self.create_timer(LOOK_S, self._look)
+        self._silence = self.create_timer(SILENCE_S, self._tell_silence)
+
+    @property
+    def complete(self) -> bool:
+        """Whether all messages that were asked for are recorded."""
+        return self._most is not None and self.count >= self._most
+
+    def _tell_silence(self) -> None:
+        self._silence.cancel()
+        if not self._heard:
+            topics = ', '.join(sorted(self._topics))
+            print(f'nothing heard yet on {topics}: is the driver running?',
+                  file=sys.stderr, flush=True)
 
     def _look(self) -> None:
         """Record the measured wrenches of contacts that have come up."""
@@ -70,10 +85,15 @@ class BagRecorder(Node):
             return
         self._topics.add(topic)
         connection = self._writer.add_connection(topic, type_name(kind), typestore=self._store)
-        self.create_subscription(kind, topic, self._writing(connection), QOS, raw=True)
+        self.create_subscription(kind, topic, self._writing(topic, connection), QOS, raw=True)
 
-    def _writing(self, connection: Any) -> Callable[[bytes], None]:
+    def _writing(self, topic: str, connection: Any) -> Callable[[bytes], None]:
         def write(data: bytes) -> None:
+            if self.complete:
+                return
+            if topic not in self._heard:
+                self._heard.add(topic)
+                print(f'hears {topic}', flush=True)
             self._writer.write(connection, self.get_clock().now().nanoseconds, data)
             self.count += 1
 
@@ -81,14 +101,18 @@ class BagRecorder(Node):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Record until a signal comes; return the exit code."""
+    """Record until a signal comes, or all that was asked for; return the exit code."""
     parser = argparse.ArgumentParser(description=(__doc__ or '').strip().splitlines()[0])
     parser.add_argument('bag', type=Path, help='folder to write')
     parser.add_argument('--node', default='/grasp_quality',
                         help='whose input topics to record (default %(default)s)')
     parser.add_argument('--overwrite', action='store_true',
                         help='replace a bag that is there already')
+    parser.add_argument('--messages', type=int, metavar='N',
+                        help='end when this many are recorded')
     options = parser.parse_args(arguments)
+    if options.messages is not None and options.messages < 1:
+        parser.error(f'--messages must be at least 1, got {options.messages}')
     if options.overwrite and any(options.bag.glob('*.mcap')):
         shutil.rmtree(options.bag)
     if options.bag.exists():
@@ -101,11 +125,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     try:
         with Writer(options.bag, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
-            recorder = BagRecorder(options.node, writer)
+            recorder = BagRecorder(options.node, writer, options.messages)
             executor = SingleThreadedExecutor()
             executor.add_node(recorder)
             print(f'recording to {options.bag}', flush=True)
-            while not stopping:
+            while not stopping and not recorder.complete:
                 executor.spin_once(timeout_sec=0.1)
             executor.shutdown()
             recorder.destroy_node()

@@ -199,26 +199,6 @@ def test_what_waits_in_a_write_ahead_log_is_told(tmp_path, replay):
     assert code == 1 and len(answers) == 5 and 'wal_checkpoint' in row['damage'][0]
 
 
-@pytest.mark.parametrize('arguments, words', [
-    ((), 'there is no task'), (('--task', 'lift'), '--task must be six'),
-    (('--task', LIFT, '--node', '/hand'), 'holds no contacts of a node /hand'),
-    (('--task', LIFT, '--format', 'xls'), 'parquet, csv'),
-    (('--task', LIFT, '--set', 'colour=3'), '--set must be name=value'),
-    (('--task', LIFT, '--set', 'friction_coefficient=-1'), 'from 0 to 100'),
-    (('--task', LIFT, '--set', 'min_contact_force=1'), 'needs contact_names')])
-def test_wrong_arguments(tmp_path, run, arguments, words):
-    write_hand(tmp_path / 'bag', 2, 3)
-    code, printed, complaint = run('bag', tmp_path / 'bag', '-o', tmp_path / 'out', *arguments)
-    assert code == 2 and not printed and words in complaint
-
-
-def test_no_bag(tmp_path, run):
-    assert 'no such file' in run('bag', tmp_path / 'none', '--task', LIFT)[2]
-    assert 'neither .mcap nor .db3' in run('bag', tmp_path, '--task', LIFT)[2]
-    (tmp_path / 'notes.txt').write_text('')
-    assert 'must be a .mcap or .db3' in run('bag', tmp_path / 'notes.txt', '--task', LIFT)[2]
-
-
 NO_ROS = """
 import sys
 from importlib.abc import MetaPathFinder

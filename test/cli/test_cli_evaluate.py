@@ -4,9 +4,10 @@
 
 import json
 
-from grasp_quality import evaluate
-from grasp_quality_cli.answer_table import limits
+from grasp_quality import __version__, evaluate
+from grasp_quality_cli.answer_table import limits, rounded
 from grasp_quality_cli.grasp_file import read_grasp_file
+import numpy as np
 import pytest
 from tolerances import SOLVER
 
@@ -118,6 +119,41 @@ def test_wrong_tasks(run, examples, task, words):
 def test_a_file_with_several_tasks_asks_which(run, examples):
     code, _, complaint = run('evaluate', examples / 'three_finger.yaml')
     assert code == 2 and 'carry, twist, push, shake, swing' in complaint
+
+
+def test_the_version(run):
+    assert run('--version') == (0, f'grasp-quality {__version__}\n', '')
+
+
+@pytest.mark.parametrize('columns', ['40', '80', None])
+@pytest.mark.parametrize('task', ['carry', 'twist', 'shake'])
+def test_no_number_and_no_header_is_cut(run, examples, monkeypatch, columns, task):
+    if columns is None:
+        monkeypatch.delenv('COLUMNS', raising=False)
+    else:
+        monkeypatch.setenv('COLUMNS', columns)
+    _, printed, _ = run('evaluate', examples / 'three_finger.yaml', '--task', task, '--json')
+    row = json.loads(printed)
+    _, printed, _ = run('evaluate', examples / 'three_finger.yaml', '--task', task)
+    assert '\N{HORIZONTAL ELLIPSIS}' not in printed
+    assert {'t1', 't2', 'normal', 'moment', 'cone', 'cap', 'used', '[N', 'm]'} <= set(
+        printed.split())
+    lines = [line.replace('\N{BOX DRAWINGS LIGHT VERTICAL}', ' ').split()
+             for line in printed.splitlines()]
+    shown = [float(number) for line in lines if line[:1] and line[0] in (
+        'thumb', 'index', 'middle') for number in line[1:5]]
+    forces = [number for one in row.get('answers', [row]) for contact in one['forces']
+              for number in contact['force']]
+    # up to half of the fourth digit of 8 N
+    assert shown == pytest.approx(forces, abs=5.1e-4)
+
+
+@pytest.mark.parametrize('size', [1e-6, 1.0, 1e6])
+def test_what_is_printed_has_four_digits_of_the_largest(size):
+    shown = rounded(size * np.array([[1.23456, -3e-5, 4.0, 0.0], [-0.0004, 0.2, 8.0, 1e-9]]))
+    assert shown == pytest.approx(
+        size * np.array([[1.235, 0.0, 4.0, 0.0], [0.0, 0.2, 8.0, 0.0]]), rel=1e-12)
+    assert not np.signbit(shown[shown == 0.0]).any()
 
 
 def test_wrong_use_says_how(run):

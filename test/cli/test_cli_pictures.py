@@ -74,6 +74,20 @@ def test_a_map_of_what_cannot_be_held_is_no(run, examples, tmp_path):
     assert code == 1 and not any(json.loads(printed)['feasible'])
 
 
+def test_a_missing_folder_is_named(run, examples, tmp_path):
+    missing = tmp_path / 'no'
+    code, printed, complaint = run('map', examples / 'pinch.yaml', '-o', missing / 'map.png')
+    assert code == 2 and not printed
+    assert complaint == f'error: --output {missing / "map.png"}: there is no folder {missing}\n'
+
+
+def test_pictures_need_a_folder(run, tmp_path):
+    (tmp_path / 'file').write_text('')
+    for output in ('file', 'file/pictures'):
+        code, _, complaint = run('figures', '-o', tmp_path / output)
+        assert code == 2 and 'must be a folder' in complaint
+
+
 def test_other_pictures_are_refused(run, examples, tmp_path):
     code, _, complaint = run('map', examples / 'pinch.yaml', '-o', tmp_path / 'map.txt')
     assert code == 2 and '.png, .pdf, .svg' in complaint

@@ -26,8 +26,9 @@ def blocks():
 
 def environment():
     """Return what env.sh adds, and a ROS domain of its own on this machine only."""
-    programs = Path(get_package_prefix('grasp_quality')) / 'lib' / 'grasp_quality'
-    return {**os.environ, 'PATH': f'{programs}:{os.environ["PATH"]}', 'COLUMNS': '100',
+    programs = [str(Path(get_package_prefix(package)) / 'lib' / package)
+                for package in ('grasp_quality', 'grasp_quality_hand')]
+    return {**os.environ, 'PATH': ':'.join([*programs, os.environ['PATH']]), 'COLUMNS': '100',
             'ROS_DOMAIN_ID': str(claim_domain()[0]), 'PYTHONUNBUFFERED': '1'}
 
 

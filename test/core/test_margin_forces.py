@@ -66,6 +66,22 @@ def test_forces_apply_the_wrench_from_strictly_inside_and_none_nearby_do_better(
             assert margin_objective(grasp, held.forces + change) <= best + CLOSED_FORM
 
 
+def test_the_load_less_a_task_gives_the_forces_for_that_task_besides():
+    """What a controller may follow; the forces of alpha over alpha do not carry the load."""
+    load, task = -2.0 * FZ, 2.0 * FZ
+    grasp = antipodal(0.5, caps=(10.0, 10.0))
+    most = evaluate(grasp, TaskWrench(task), external_wrench=load)
+    assert most.alpha == pytest.approx(4.0, rel=SOLVER)
+    share = most.forces / most.alpha
+    assert np.tensordot(grasp.matrix, share) + load == pytest.approx(0.25 * task, abs=SOLVER)
+    for level in (0.0, 1.0, 3.0):
+        held = hold_forces(grasp, load - level * task)
+        check_forces(grasp, held.forces, level * task, load)
+        assert held.friction_margin > 0.0
+        assert held.forces == pytest.approx(
+            hold_forces(grasp, load, task, level).forces, abs=CLOSED_FORM)
+
+
 def test_the_order_of_contacts_does_not_matter():
     rng = np.random.default_rng(3)
     grasp = random_grasp(rng, count=5, bound='finger')
