@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from grasp_quality import Status, TaskCone, TaskEllipsoid, TaskPolytope
 from grasp_quality_cli.answer_rows import Row
 from grasp_quality_cli.grasp_file import Task
-from grasp_quality_cli.printing import print_table
+from grasp_quality_cli.printing import print_facts, print_table
 import numpy as np
 from numpy.typing import NDArray
 from rich.console import Console
@@ -31,10 +31,8 @@ def print_answer(console: Console, row: Row, task: Task) -> None:
     for i, one in enumerate(row['answers']):
         console.print(f'[bold]Wrench {i + 1}: {numbers(_wrenches_of(task)[i])}[/bold]')
         _print_one(console, one)
-    facts = Table.grid(padding=(0, 2))
-    for name, value in _together(row):
-        facts.add_row(name, value)
-    console.print('[bold]All together[/bold]', facts, sep='\n')
+    console.print('[bold]All together[/bold]')
+    print_facts(console, _together(row))
 
 
 def _wrenches_of(task: Task) -> NDArray[np.float64]:
@@ -60,9 +58,6 @@ def _print_one(console: Console, row: Row) -> None:
         console.print('[bold red]INFEASIBLE[/bold red]: no contact forces inside the friction '
                       'cones and the caps balance the load together with any share of the task')
         return
-    facts = Table.grid(padding=(0, 2))
-    for name, value in _facts(row):
-        facts.add_row(name, value)
     table = Table(header_style='bold')
     for name in ('contact', 't1\n[N]', 't2\n[N]', 'normal\n[N]', 'moment\n[N m]', 'cone\nused',
                  'cap\nused'):
@@ -72,7 +67,7 @@ def _print_one(console: Console, row: Row) -> None:
     for contact, force in zip(row['forces'], rounded(forces)):
         table.add_row(escape(contact['name']), *(f'{value:.4g}' for value in force),
                       f'{contact["cone_usage"]:.1%}', f'{contact["cap_usage"]:.1%}')
-    console.print(facts)
+    print_facts(console, _facts(row))
     print_table(console, table)
 
 

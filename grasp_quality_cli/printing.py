@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 import os
 
 from rich.cells import cell_len
@@ -22,6 +23,16 @@ def console(markup: bool = False) -> Console:
     return made
 
 
+def print_facts(console: Console, facts: Iterable[tuple[str, str]]) -> None:
+    """Print names, and what there is to say of each."""
+    grid = Table.grid(padding=(0, 2))
+    grid.add_column(no_wrap=True)
+    grid.add_column()
+    for name, text in facts:
+        grid.add_row(name, text)
+    print_table(console, grid)
+
+
 def print_table(console: Console, table: Table) -> None:
     """
     Print a table in which columns with no_wrap keep their width, and texts are folded.
@@ -31,8 +42,8 @@ def print_table(console: Console, table: Table) -> None:
     for column in table.columns:
         if column.no_wrap:
             column.min_width = max(
-                cell_len(line) for cell in (column.header, *column.cells)
-                for line in str(cell).splitlines())
+                (cell_len(line) for cell in (column.header, *column.cells)
+                 for line in str(cell).splitlines()), default=0)
         else:
             column.overflow, column.min_width = 'fold', LEAST_COLUMNS
     width = console.width
