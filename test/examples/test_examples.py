@@ -86,6 +86,8 @@ def test_follow_forces_is_safe_unless_the_forces_hold(node, run):
     client.call(srv.SetTask, 'set_task', feed, kind=1, task_wrench=wrench(fy=1.0),
                 external_wrench=wrench(fz=-11.0))
     told('safe: ', feed)
+    client.call(srv.SetTask, 'set_task', feed, kind=1, task_wrench=wrench(fy=1.0))
+    told('follow: ', feed)
     client.call(srv.SetTask, 'set_task', feed, kind=1, task_wrench=wrench(fy=1.0),
                 external_wrench=wrench(fy=11.5))  # alpha has an answer, above 1; holding has none
     told('safe: there are no holding forces', feed)
