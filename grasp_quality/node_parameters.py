@@ -19,6 +19,7 @@ from grasp_quality.node_settings import Settings
 from grasp_quality.uncertainty import LARGEST_POSITION, LARGEST_TILT
 
 LARGE = 1e6
+NEAR = 0.85  # likeness of a misspelt name
 
 
 class Type(enum.IntEnum):
@@ -155,11 +156,13 @@ def check(settings: Settings, parameters: Iterable[Any]) -> Any:
 
 
 def unknown_overrides(node: Any) -> tuple[str, ...]:
-    """Say which overrides no parameter was declared for, so that they change nothing."""
+    """
+    Say which overrides look like a parameter misspelt, so that they change nothing.
+
+    Others are passed over: a file for all nodes (``/**``) holds parameters of others too.
+    """
     given = getattr(node, '_parameter_overrides', {})  # rclpy tells of them nowhere else
-    unknown = [name for name in sorted(given)
-               if not node.has_parameter(name) and not name.startswith('qos_overrides.')]
-    return tuple(
-        f'there is no parameter {name!r}, its value changes nothing' + ''.join(
-            f': {near!r} may be meant' for near in difflib.get_close_matches(name, TABLE, 1))
-        for name in unknown)
+    near = {name: difflib.get_close_matches(name, TABLE, 1, NEAR) for name in sorted(given)
+            if not node.has_parameter(name) and not name.startswith('qos_overrides.')}
+    return tuple(f'there is no parameter {name!r}, its value changes nothing: {found[0]!r} may be '
+                 'meant' for name, found in near.items() if found)
