@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from std_msgs.msg import Header
 
+pytestmark = pytest.mark.alone  # it lets go of what is older than 0.1 s
 HELD = [-0.25, 0.15]    # right, left [N m]
 
 
