@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a controller reads: forces and joint states, checked before they move a motor."""
 
+from collections.abc import Collection
 from typing import Any
 
 from msg_adapters.errors import InvalidMessageError
@@ -39,9 +40,13 @@ def read_forces(message: Any) -> tuple[tuple[str, ...], Array, Array]:
     return (tuple(names), np.array(points).reshape(-1, 3), np.array(wrenches).reshape(-1, 6))
 
 
-def read_joint_state(message: Any) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
+def read_joint_state(
+        message: Any, joints: Collection[str] | None = None,
+        ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
     """
-    Read a sensor_msgs/JointState.
+    Read a sensor_msgs/JointState: of these joints only, where they are given.
+
+    Others may stand beside them, with NaN for what they do not measure.
 
     Returns
     -------
@@ -51,20 +56,24 @@ def read_joint_state(message: Any) -> tuple[dict[str, float], dict[str, float], 
     Raises
     ------
     InvalidMessageError
-        A length does not fit the names, or a number is not finite.
+        A length does not fit the names, or a number of these joints is not finite.
 
     """
-    names = [str(name) for name in message.name]
+    all_names = [str(name) for name in message.name]
+    kept = [i for i, name in enumerate(all_names) if joints is None or name in joints]
+    names = [all_names[i] for i in kept]
     if len(set(names)) < len(names):
         raise InvalidMessageError(f'name must be unique, got {names}')
 
     def numbers(field: str) -> dict[str, float]:
-        values = checked_numbers(getattr(message, field), field)
-        if len(values) not in (0, len(names)):
+        values = getattr(message, field)
+        if len(values) not in (0, len(all_names)):
             raise InvalidMessageError(
-                f'{field} must hold one number for each of the {len(names)} names, got '
+                f'{field} must hold one number for each of the {len(all_names)} names, got '
                 f'{len(values)}')
-        return dict(zip(names, values))
+        if not len(values):
+            return {}
+        return dict(zip(names, checked_numbers([values[i] for i in kept], field)))
 
     positions = numbers('position')
     if len(positions) < len(names):

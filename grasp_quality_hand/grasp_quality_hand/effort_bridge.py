@@ -15,11 +15,12 @@ from grasp_quality_hand.contact_pushes import contact_efforts, Pushes, saturated
 from grasp_quality_hand.effort_command import EffortCommand, Phase
 from grasp_quality_hand.effort_inputs import Newest, Now, Unusable
 from grasp_quality_hand.hand_kinematics import HandKinematics
+from msg_adapters.errors import InvalidMessageError
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-LONGEST_STEP_S = 0.05  # that the slew limit counts after a pause
+LONGEST_STEP_S = 0.05  # that slew limit and ramp count after a pause
 
 
 @dataclass(frozen=True)
@@ -75,12 +76,15 @@ class EffortBridge:
         Frame that the poses of the object are of.
     compensate_gravity : bool
         Whether the efforts carry the hand's own links.
+    period : float
+        Between ticks [s].
 
     """
 
     def __init__(self, hand: HandKinematics, links: Mapping[str, str], command: EffortCommand,
                  max_force_age: float, max_joint_age: float, max_pose_age: float,
-                 object_frame: str, compensate_gravity: bool = True) -> None:
+                 object_frame: str, compensate_gravity: bool = True,
+                 period: float = 0.0) -> None:
         for link in links.values():
             hand.check_link(link)
         self._hand, self._links, self._command = hand, dict(links), command
@@ -90,7 +94,13 @@ class EffortBridge:
         self._object_frame = object_frame
         self._gravity = compensate_gravity
         self._last_s: float | None = None
+        self._longest_hold_step_s = max(LONGEST_STEP_S, period)
         self.ending = ''  # why nothing shall be followed any more
+
+    def check_count(self, count: int) -> None:
+        """Refuse more forces than there are contacts, before anybody reads them."""
+        if count > len(self._links):
+            raise InvalidMessageError(f'{count} came for {len(self._links)} contact_names')
 
     def ages(self, now: Now) -> dict[str, float]:
         """Ages of the newest inputs [s]."""
@@ -128,7 +138,8 @@ class EffortBridge:
             rates = self._of_motors(joints.rates)
         except Unusable:
             pass
-        efforts = self._command.hold(period, positions, rates)
+        efforts = self._command.hold(
+            min(period, self._longest_hold_step_s), positions, rates)
         return efforts, Report(self._command.phase, reason, 0.0, positions is None)
 
     def _wanted(self, now: Now) -> tuple[Array, float]:

@@ -39,8 +39,8 @@ class Holding:
     efforts : (n,) array or None
         [N m, N]; None: those of the good forces before, averaged over ``AVERAGING_S``.
     stiffness, damping : float
-        Of the posture at which the hold began [N m/rad, N m s/rad]. When joint states become
-        stale the last spring stays, so that the grip does not jump, and the damping ends.
+        Of the posture at which the hold began [N m/rad, N m s/rad]. What both add changes by
+        the slew limit at most, and so goes to nothing when joint states become stale.
 
     """
 
@@ -59,7 +59,8 @@ class EffortCommand:
     limits : (n,) array
         Effort limits > 0 [N m, N].
     max_rate : float
-        Slew limit of every joint while following [N m/s, N/s].
+        Slew limit of every joint while following, and of what keeps the posture in a hold
+        [N m/s, N/s].
     holding : Holding
 
     """
@@ -70,7 +71,7 @@ class EffortCommand:
         self._average: Array | None = None
         self._ramp_from = np.zeros(len(limits))
         self._posture: Array | None = None
-        self._spring = np.zeros(len(limits))
+        self._feedback = np.zeros(len(limits))
         self._share = 0.0
         self.phase = Phase.WAITING
 
@@ -117,7 +118,7 @@ class EffortCommand:
             weight = 1.0 - float(np.exp(-max(period, 0.0) / AVERAGING_S))
             self._average = self._average + weight * (self._efforts - self._average)
         self.phase, self._posture = Phase.FOLLOWING, None
-        self._spring = np.zeros(len(self._limits))
+        self._feedback = np.zeros(len(self._limits))
         return self._efforts.copy()
 
     def hold(self, period: float, positions: Array | None = None,
@@ -148,13 +149,16 @@ class EffortCommand:
         if self._share == 1.0:
             self.phase = Phase.HOLDING
         goal = self._average if self._holding.efforts is None else self._holding.efforts
+        keeping = goal
         with np.errstate(over='ignore', invalid='ignore'):  # _within judges what comes out
             if positions is not None and self._posture is not None:
-                spring = self._holding.stiffness * (self._posture - positions)
-                self._spring = spring if np.isfinite(spring).all() else self._spring
+                keeping = goal + self._holding.stiffness * (self._posture - positions)
                 if rates is not None:
-                    goal = goal - self._holding.damping * rates
-            goal = self._within(goal + self._spring, self._efforts)
+                    keeping = keeping - self._holding.damping * rates
+        allowed = self._max_rate * max(period, 0.0)
+        way = self._within(keeping, goal) - goal - self._feedback
+        self._feedback = self._feedback + np.clip(way, -allowed, allowed)
+        goal = self._within(goal + self._feedback, self._efforts)
         self._efforts = self._ramp_from + self._share * (goal - self._ramp_from)
         return self._efforts.copy()
 

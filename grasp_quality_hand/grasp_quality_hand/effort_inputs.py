@@ -3,9 +3,10 @@
 """
 The newest message of a kind, and whether it may still be used.
 
-A message is as old as the older of its stamp (ROS clock) and its arrival (steady clock) says. One
-that comes late, behind a newer one that is still fresh, is dropped; so that a clock that was set
-back stops nothing for longer than the age limit.
+A message is as old as its stamp (ROS clock), its sending (system clock) or its arrival (steady
+clock) says, whichever is oldest: one without a stamp may have waited in a queue. One that comes
+late, behind a newer stamp that is still fresh, is dropped; so that a clock that was set back stops
+nothing for longer than the age limit.
 """
 
 from dataclasses import dataclass
@@ -42,25 +43,50 @@ class Newest(Generic[T]):
     def __init__(self, what: str, max_age: float) -> None:
         self._what, self._max_age = what, max_age
         self._value: T | None = None
-        self._stamp_ns, self._arrival_s = 0, 0.0
+        self._times = (0, 0.0)   # stamp [ns], 0 for none, and sending [s] by the steady clock
+        self._latest = (0, 0.0)  # of the newest stamp: what has none must not let older ones in
+        self._refused = ''
         self.dropped = 0
 
-    def put(self, value: T, stamp_ns: int, now: Now) -> None:
-        """Keep a message with a stamp in ns, 0 for none, unless it comes late."""
-        if stamp_ns and stamp_ns < self._stamp_ns and abs(self.age(now)) <= self._max_age:
-            self.dropped += 1
-            return
-        self._value, self._stamp_ns, self._arrival_s = value, stamp_ns, now.steady_s
+    def put(self, value: T, stamp_ns: int, now: Now, waited_s: float = 0.0) -> None:
+        """
+        Keep a message, unless it comes late.
+
+        Parameters
+        ----------
+        value : T
+            What is kept.
+        stamp_ns : int
+            0 for none.
+        now : Now
+            When it was read.
+        waited_s : float
+            From its sending until then [s].
+
+        """
+        times = (stamp_ns, now.steady_s - max(0.0, waited_s))
+        if stamp_ns:
+            if stamp_ns < self._latest[0] and abs(self._age(self._latest, now)) <= self._max_age:
+                self.dropped += 1
+                return
+            self._latest = times
+        self._value, self._times, self._refused = value, times, ''
+
+    def refuse(self, why: str) -> None:
+        """Leave a message out, and say so where the one before it is no use any more."""
+        self._refused = f'; the last one was refused: {why}'
 
     def age(self, now: Now) -> float:
         """Age [s], negative when it is stamped ahead of this clock; inf for no message."""
-        if self._value is None:
-            return float('inf')
-        since_arrival = now.steady_s - self._arrival_s
-        if not self._stamp_ns:
-            return since_arrival
-        by_stamp = (now.ros_ns - self._stamp_ns) * 1e-9
-        return by_stamp if by_stamp < -self._max_age else max(since_arrival, by_stamp)
+        return float('inf') if self._value is None else self._age(self._times, now)
+
+    def _age(self, times: tuple[int, float], now: Now) -> float:
+        stamp_ns, sent_s = times
+        since_sent = now.steady_s - sent_s
+        if not stamp_ns:
+            return since_sent
+        by_stamp = (now.ros_ns - stamp_ns) * 1e-9
+        return by_stamp if by_stamp < -self._max_age else max(since_sent, by_stamp)
 
     def fresh(self, now: Now) -> T:
         """
@@ -73,10 +99,11 @@ class Newest(Generic[T]):
 
         """
         if self._value is None:
-            raise Unusable(f'no {self._what} have come yet')
+            raise Unusable(f'no {self._what} have come yet{self._refused}')
         age = self.age(now)
         if age > self._max_age:
-            raise Unusable(f'the newest {self._what} are older than {self._max_age:g} s')
+            raise Unusable(f'the newest {self._what} are older than {self._max_age:g} s'
+                           f'{self._refused}')
         if age < -self._max_age:
             raise Unusable(f'the {self._what} are stamped more than {self._max_age:g} s ahead of '
                            'this clock: synchronise the clocks')

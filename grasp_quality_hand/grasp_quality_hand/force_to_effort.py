@@ -35,6 +35,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.serialization import deserialize_message
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
@@ -43,6 +44,7 @@ NONE = Pushes((), np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 3)))
 REPORT_PERIOD_S = 1.0
 FLUSH_S = 0.5
 ENDING_EXTRA_S = 0.5  # beyond the ramp, after which the node ends anyhow
+LARGEST_MESSAGE = 65536  # [bytes]; unpacking a larger one would delay the commands
 
 
 class ForceToEffort(Node):
@@ -62,15 +64,31 @@ class ForceToEffort(Node):
             Float64MultiArray, 'effort_controller/commands', newest_command())
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._listen(ContactForceArray, 'grasp_quality/contact_forces', self._on_forces,
-                     newest_command())
-        self._listen(JointState, 'joint_states', self._on_joints, newest_sample())
-        self._listen(PoseStamped, 'object_pose', self._on_pose, newest_sample())
+                     newest_command(), self._refuse_forces)
+        self._listen(JointState, 'joint_states', self._on_joints, newest_sample(),
+                     self._bridge.joints.refuse)
+        self._listen(PoseStamped, 'object_pose', self._on_pose, newest_sample(),
+                     self._bridge.poses.refuse)
         steady = Clock(clock_type=ClockType.STEADY_TIME)  # a clock set back must not stop it
         self.create_timer(1.0 / values['rate'], self._guarded(self._on_tick), clock=steady)
         self.create_timer(REPORT_PERIOD_S, self._guarded(self._tell), clock=steady)
 
-    def _listen(self, kind: Any, topic: str, callback: Callable[[Any], None], qos: Any) -> None:
-        self.create_subscription(kind, topic, self._guarded(callback), qos)
+    def _listen(self, kind: Any, topic: str, callback: Callable[[Any, Now, float], None],
+                qos: Any, refuse: Callable[[str], None]) -> None:
+        """Call back with a message, now, and how long ago it was sent [s]."""
+        def receive(packed: bytes, sent_ns: int) -> None:
+            try:
+                if len(packed) > LARGEST_MESSAGE:
+                    raise InvalidMessageError(
+                        f'{topic}: {len(packed)} bytes, more than {LARGEST_MESSAGE}')
+                callback(deserialize_message(packed, kind), *self._when(sent_ns))
+            except InvalidMessageError as error:
+                refuse(str(error))
+                raise
+        guarded = self._guarded(receive)
+        self.create_subscription(
+            kind, topic, lambda packed, info: guarded(packed, info['source_timestamp']), qos,
+            raw=True)
 
     def _guarded(self, callback: Callable[..., None]) -> Callable[..., None]:
         """Let no exception out of a callback; a message that cannot be used is not there."""
@@ -85,29 +103,36 @@ class ForceToEffort(Node):
     def _now(self) -> Now:
         return Now(self.get_clock().now().nanoseconds, time.monotonic())
 
-    def _on_forces(self, message: ContactForceArray) -> None:
-        try:
-            names, points, wrenches = read_forces(message)
-        except InvalidMessageError as error:  # whoever sends such forces has no good ones
-            self._bridge.forces.put(FramedPushes('', NONE, f'bad contact forces: {error}'), 0,
-                                    self._now())
-            return
+    def _when(self, sent_ns: int) -> tuple[Now, float]:
+        """Return now, and for how long a message has been under way [s], by its sender's clock."""
+        now = self._now()  # first: a stop in between makes it older, not younger
+        return now, max(0.0, (time.time_ns() - sent_ns) * 1e-9) if sent_ns > 0 else 0.0
+
+    def _refuse_forces(self, why: str) -> None:
+        """Hold: whoever sends such forces has no good ones."""
+        self._bridge.forces.put(FramedPushes('', NONE, f'bad contact forces: {why}'), 0,
+                                self._now())
+        self._bridge.forces.refuse(why)
+
+    def _on_forces(self, message: ContactForceArray, now: Now, waited_s: float) -> None:
+        self._bridge.check_count(len(message.forces))
+        names, points, wrenches = read_forces(message)
         pushes = Pushes(names, points, wrenches[:, :3], wrenches[:, 3:])
         # a failure may bear the sender's clock instead of a sensor's: it is never late
         stamp = stamp_ns(message.header.stamp) if names else 0
         self._bridge.forces.put(
-            FramedPushes(message.header.frame_id, pushes), stamp, self._now())
+            FramedPushes(message.header.frame_id, pushes), stamp, now, waited_s)
 
-    def _on_joints(self, message: JointState) -> None:
+    def _on_joints(self, message: JointState, now: Now, waited_s: float) -> None:
         if set(message.name).isdisjoint(self._hand.movable):
             return  # of an arm on the same topic
-        self._bridge.joints.put(Joints(*read_joint_state(message)),
-                                stamp_ns(message.header.stamp), self._now())
+        joints = Joints(*read_joint_state(message, self._hand.movable))
+        self._bridge.joints.put(joints, stamp_ns(message.header.stamp), now, waited_s)
 
-    def _on_pose(self, message: PoseStamped) -> None:
+    def _on_pose(self, message: PoseStamped, now: Now, waited_s: float) -> None:
         p, R = pose_arrays(message.pose, 'pose')
         self._bridge.poses.put(ObjectPose(message.header.frame_id, R, np.asarray(p)),
-                               stamp_ns(message.header.stamp), self._now())
+                               stamp_ns(message.header.stamp), now, waited_s)
 
     def _on_tick(self) -> None:
         efforts, self.report = self._bridge.tick(self._now())

@@ -28,7 +28,8 @@ TABLE: dict[str, tuple[Any, str, tuple[float, float] | None]] = {
     'rate': (200.0, 'Rate of the commands [Hz]', (1.0, 1000.0)),
     'gravity_compensation': (True, "Whether the efforts carry the hand's own links", None),
     'gravity': (list(EARTH), "Gravity in the frame of the URDF's root [m/s^2]", None),
-    'max_effort_rate': (50.0, 'Slew limit of every joint while following [N m/s]', (1e-3, 1e6)),
+    'max_effort_rate': (50.0, 'Slew limit of every joint while following, and of '
+                        'stiffness and damping in a hold [N m/s]', (1e-3, 1e6)),
     'max_force_age': (0.1, 'Age of the contacts behind the forces [s] from which to hold',
                       (1e-3, 10.0)),
     'max_joint_age': (0.1, 'Age of joint states [s] from which to hold', (1e-3, 10.0)),
@@ -88,7 +89,8 @@ def make_bridge(values: dict[str, Any]) -> tuple[EffortBridge, HandKinematics]:
         values['ramp_time'], efforts, values['holding_stiffness'], values['holding_damping']))
     return EffortBridge(
         hand, dict(zip(names, links)), command, values['max_force_age'], values['max_joint_age'],
-        values['max_pose_age'], values['object_frame'], values['gravity_compensation']), hand
+        values['max_pose_age'], values['object_frame'], values['gravity_compensation'],
+        1.0 / values['rate']), hand
 
 
 def _urdf(values: dict[str, Any]) -> str:

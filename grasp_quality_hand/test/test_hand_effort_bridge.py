@@ -31,13 +31,13 @@ def pinch(size=3.0, names=('left', 'right')):
 class Rig:
     """A bridge with a clock of its own; both clocks begin at 1 s."""
 
-    def __init__(self, max_rate=1e6, **holding):
+    def __init__(self, max_rate=1e6, period=0.0, **holding):
         hand = HandKinematics(urdf(), ['left_hinge', 'right_hinge'])
         command = EffortCommand(
             hand.effort_limits, max_rate, Holding(**{'ramp_time': 0.2, **holding}))
         self.bridge = EffortBridge(
             hand, {'left': 'left_finger', 'right': 'right_finger'}, command, 0.1, 0.1, 0.1,
-            'object')
+            'object', period=period)
         self.now = Now(10 ** 9, 1.0)
         self.report = None
         self.tick()  # the first has no time before it
@@ -159,7 +159,8 @@ def test_good_forces_again_end_the_hold(rig):
     rig.feed()
     rig.tick()
     rig.wait(0.5)
-    rig.tick()
+    for _ in range(41):
+        rig.tick()
     assert rig.report.phase is Phase.HOLDING
     rig.feed()
     assert rig.tick() == pytest.approx([0.3, -0.3], abs=EXACT)

@@ -95,14 +95,14 @@ def test_a_hold_takes_the_mean_of_what_was_followed():
     assert out == pytest.approx([0.4, 0.0], abs=0.01)
 
 
-def test_a_hold_keeps_the_posture_and_when_blind_the_last_spring():
+def test_a_hold_keeps_the_posture_and_when_blind_lets_the_spring_go():
     commanded = command(max_rate=1e6, stiffness=2.0, damping=0.5)
     commanded.follow(np.zeros(2), PERIOD)
     for _ in range(41):
         commanded.hold(PERIOD, np.array([1.0, 1.0]), np.zeros(2))
     assert commanded.hold(PERIOD, np.array([0.9, 1.1]), np.array([0.2, 0.0])) == pytest.approx(
         [2.0 * 0.1 - 0.5 * 0.2, -0.2], abs=EXACT)
-    assert commanded.hold(PERIOD) == pytest.approx([2.0 * 0.1, -0.2], abs=EXACT)
+    assert commanded.hold(PERIOD) == pytest.approx([0.0, 0.0], abs=EXACT)
 
 
 def test_good_forces_end_a_hold_without_a_jump():
@@ -120,6 +120,33 @@ def test_joint_states_that_become_stale_in_a_hold_change_nothing_at_once():
     commanded = command(ramp_time=0.0, stiffness=2.0, efforts=np.array([0.3, 0.3]))
     commanded.follow(np.zeros(2), PERIOD)
     commanded.hold(PERIOD, np.zeros(2), np.zeros(2))
-    seen = commanded.hold(PERIOD, np.array([-0.2, 0.1]), np.zeros(2))
+    for _ in range(8):  # 0.4 N m
+        seen = commanded.hold(PERIOD, np.array([-0.2, 0.1]), np.zeros(2))
     assert seen == pytest.approx([0.7, 0.1], abs=EXACT)
-    assert commanded.hold(PERIOD) == pytest.approx(seen, abs=EXACT)
+    assert commanded.hold(PERIOD) == pytest.approx([0.65, 0.15], abs=EXACT)
+    for _ in range(8):
+        blind = commanded.hold(PERIOD)
+    assert blind == pytest.approx([0.3, 0.3], abs=EXACT)
+
+
+@given(strategies.lists(strategies.tuples(strategies.booleans(), efforts, efforts), max_size=30))
+def test_in_a_hold_no_sample_of_the_joints_moves_an_effort_faster_than_the_slew_limit(samples):
+    commanded = command(ramp_time=0.0, stiffness=10.0, damping=0.1, efforts=np.array([0.3, -1.9]))
+    commanded.follow(np.zeros(2), PERIOD)
+    last = commanded.hold(PERIOD)
+    for seen, positions, rates in samples:
+        out = commanded.hold(PERIOD, *((positions, rates) if seen else ()))
+        assert (np.abs(out - last) <= 10.0 * PERIOD + EXACT).all()
+        last = out
+
+
+def test_one_outlier_before_the_joint_states_end_is_forgotten():
+    commanded = command(max_rate=50.0, stiffness=10.0, damping=0.1, efforts=np.array([0.3, 0.3]))
+    commanded.follow(np.zeros(2), PERIOD)
+    for _ in range(41):
+        commanded.hold(PERIOD, np.zeros(2), np.zeros(2))
+    for _ in range(400):  # 2 s: it must not wind up either
+        commanded.hold(PERIOD, np.array([6.3, 0.0]), np.array([1e3, 0.0]))
+    for _ in range(6):    # from the limit, 1.3 N m away
+        held = commanded.hold(PERIOD)
+    assert held == pytest.approx([0.3, 0.3], abs=EXACT)

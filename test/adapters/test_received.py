@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a controller reads: numbers as they are, or an error before they move a motor."""
 
+import math
+
 from adapter_messages import BAD_NUMBERS, wrench
 from geometry_msgs.msg import Point
 from grasp_quality_msgs.msg import ContactForce, ContactForceArray
@@ -55,6 +57,15 @@ def test_a_contact_that_comes_twice_is_refused():
 def test_joint_states_are_read_by_name():
     message = JointState(name=['a', 'b'], position=[1.0, 2.0], effort=[3.0, 4.0])
     assert read_joint_state(message) == ({'a': 1.0, 'b': 2.0}, {}, {'a': 3.0, 'b': 4.0})
+
+
+def test_joints_of_others_are_not_read():
+    message = JointState(name=['arm', 'a', 'arm'], position=[math.nan, 1.0, 0.0],
+                         effort=[0.0, 2.0, math.nan])
+    assert read_joint_state(message, ['a', 'b']) == ({'a': 1.0}, {}, {'a': 2.0})
+    message.effort[1] = math.nan
+    with pytest.raises(InvalidMessageError, match='^effort must be finite'):
+        read_joint_state(message, ['a', 'b'])
 
 
 @pytest.mark.parametrize('fields, words', [
