@@ -42,11 +42,13 @@ def read_forces(message: Any) -> tuple[tuple[str, ...], Array, Array]:
 
 def read_joint_state(
         message: Any, joints: Collection[str] | None = None,
+        driven: Collection[str] | None = None,
         ) -> tuple[dict[str, float], dict[str, float], dict[str, float]]:
     """
-    Read a sensor_msgs/JointState: of these joints only, where they are given.
+    Read a sensor_msgs/JointState.
 
-    Others may stand beside them, with NaN for what they do not measure.
+    Where ``joints`` are given, of these only, and rates and efforts only of those that are
+    ``driven``, too: others may stand beside them, with NaN for what they do not measure.
 
     Returns
     -------
@@ -56,7 +58,7 @@ def read_joint_state(
     Raises
     ------
     InvalidMessageError
-        A length does not fit the names, or a number of these joints is not finite.
+        A length does not fit the names, or a number that is read is not finite.
 
     """
     all_names = [str(name) for name in message.name]
@@ -65,7 +67,7 @@ def read_joint_state(
     if len(set(names)) < len(names):
         raise InvalidMessageError(f'name must be unique, got {names}')
 
-    def numbers(field: str) -> dict[str, float]:
+    def numbers(field: str, among: Collection[str]) -> dict[str, float]:
         values = getattr(message, field)
         if len(values) not in (0, len(all_names)):
             raise InvalidMessageError(
@@ -73,9 +75,11 @@ def read_joint_state(
                 f'{len(values)}')
         if not len(values):
             return {}
-        return dict(zip(names, checked_numbers([values[i] for i in kept], field)))
+        read = {all_names[i]: values[i] for i in kept if all_names[i] in among}
+        return dict(zip(read, checked_numbers(read.values(), field)))
 
-    positions = numbers('position')
+    positions = numbers('position', names)
     if len(positions) < len(names):
         raise InvalidMessageError(f'position must hold one number for each of {names}, got none')
-    return positions, numbers('velocity'), numbers('effort')
+    of_driven = names if driven is None else driven
+    return positions, numbers('velocity', of_driven), numbers('effort', of_driven)

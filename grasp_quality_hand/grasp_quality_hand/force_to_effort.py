@@ -126,7 +126,7 @@ class ForceToEffort(Node):
     def _on_joints(self, message: JointState, now: Now, waited_s: float) -> None:
         if set(message.name).isdisjoint(self._hand.movable):
             return  # of an arm on the same topic
-        joints = Joints(*read_joint_state(message, self._hand.movable))
+        joints = Joints(*read_joint_state(message, self._hand.movable, self._hand.joints))
         self._bridge.joints.put(joints, stamp_ns(message.header.stamp), now, waited_s)
 
     def _on_pose(self, message: PoseStamped, now: Now, waited_s: float) -> None:

@@ -64,6 +64,7 @@ def test_joints_of_others_are_not_read():
                          effort=[0.0, 2.0, math.nan])
     assert read_joint_state(message, ['a', 'b']) == ({'a': 1.0}, {}, {'a': 2.0})
     message.effort[1] = math.nan
+    assert read_joint_state(message, ['a', 'b'], ['b']) == ({'a': 1.0}, {}, {})
     with pytest.raises(InvalidMessageError, match='^effort must be finite'):
         read_joint_state(message, ['a', 'b'])
 
