@@ -37,7 +37,7 @@ def show_page(client: Any, children: list[ChildProcess], output: Any) -> str:
     log = output / 'viewer.log'
     children.append(ChildProcess(
         'the viewer', [executable('grasp_quality_hand', 'viewer'), '--ros-args', '-p',
-                       f'urdf:={dclaw_directory() / URDF}'], log))
+                       'controls:=true', '-p', f'urdf:={dclaw_directory() / URDF}'], log))
     weight = client.heard.mass * GRAVITY * client.heard.up
     client.ask(SetTask, 'set_task', SetTask.Request(
         kind=SetTask.Request.WRENCH, task_wrench=force(weight)))

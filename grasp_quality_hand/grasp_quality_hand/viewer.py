@@ -68,7 +68,8 @@ class Viewer:
         self._caller = Caller(calls)
         self._listener = Listener(node, self._target, self._hand_node)
         self._panel = Panel(self.server, self._target)
-        self._controls = Controls(self.server, self._caller, self._target)
+        self._controls = Controls(
+            self.server, self._caller, self._target, self._settings['controls'])
         self._scene = Scene(self.server)
         self._body = HandAndObject(self.server)
         if mesh is not None:
@@ -144,6 +145,8 @@ def _declare(node: Any) -> dict[str, Any]:
     table = {
         'host': ('127.0.0.1', 'address to serve the page on; 0.0.0.0 lets other machines in'),
         'port': (8080, 'port of the page; the next free one when it is taken'),
+        'controls': (False, 'whether the page may set task, load and friction of the node; any '
+                     'web page open in a browser on this machine can then set them too'),
         'target_node': ('grasp_quality', 'the grasp_quality node to show'),
         'hand_node': ('simulated_hand', 'node whose object_pose and up_in_object_frame are shown'),
         'urdf': ('', 'URDF file of the hand; empty: what comes on /robot_description'),

@@ -4,11 +4,15 @@
 The page's controls: task, friction and load, set through the services of the node.
 
 A slider sends while it is moved: one request is on its way at a time, and the newest position
-goes out when its answer is there. Nothing is sent before somebody touches a control.
+goes out when its answer is there. Nothing is sent before somebody touches a control, and nothing
+at all unless the controls are enabled: any page that the browser shows can speak to this one's
+server. A task goes out with the load that the node has, not with one that this page remembers.
 """
 
+import dataclasses
 from html import escape
 import threading
+import time
 from typing import Any
 
 from grasp_quality_hand.viewer_calls import Caller
@@ -23,17 +27,26 @@ import viser
 
 TORQUE_ONLY = 1e-3  # a force below this share of the torque [1/m] is read as none
 
+OWN_LOAD_S = 1.0  # for which a load set here counts before the node is heard to have it
+
 SILENT = 'no answer, is the node running?'
+SHOWN_ONLY = 'shown only: start the viewer with controls:=true to set task, load and friction'
+NO_LOAD = ('task not sent: it would take away a load that is not known while the node evaluates '
+           'nothing; set the load here first')
 
 
 class Controls:
     """Sliders and buttons of a viser server that set the task of a node."""
 
-    def __init__(self, server: viser.ViserServer, caller: Caller, target: str) -> None:
+    def __init__(self, server: viser.ViserServer, caller: Caller, target: str,
+                 enabled: bool) -> None:
         self._caller, self._target = caller, target
         self._sender = NewestOnly()
         self._touched = False
         self._followed: tuple[float, ...] = ()
+        self._node_load: tuple[float, ...] | None = None  # [N, N m]
+        self._own_load: tuple[float, ...] = ()
+        self._own_until = 0.0
         gui: Any = server.gui
         with gui.add_folder('Task (object frame)'):
             self._kind = gui.add_dropdown('task', KINDS)
@@ -51,15 +64,24 @@ class Controls:
                 hint='Of the contacts that bring no coefficient of their own')
         self.map_shown = gui.add_checkbox('show force map', True)
         self._reply = gui.add_html(_reply_html('', True))
-        for control in (self._kind, self._quantity, self._azimuth, self._elevation, self._size,
-                        self._half_angle, self._preset, self._load):
+        tasks = (self._kind, self._quantity, self._azimuth, self._elevation, self._size,
+                 self._half_angle, self._preset)
+        self._show_what_counts()
+        if not enabled:
+            quick.visible = False
+            for control in (*tasks, self._load, self._friction):
+                control.disabled = True  # and no callback that would send: a page can lie
+            self._say(SHOWN_ONLY, True)
+            return
+        for control in tasks:
             control.on_update(self._on_task)
+        self._load.on_update(self._on_load)
         quick.on_click(lambda event: self._point_along(event.target.value))
         self._friction.on_update(self._on_friction)
-        self._show_what_counts()
 
     def follow(self, quality: GraspQuality | None, friction: float) -> None:
-        """Stand where the node stands, as long as nobody has touched a control."""
+        """Stand where the node stands; the task as long as nobody has touched a control."""
+        self._follow_load(quality)
         if self._touched or quality is None:
             return
         task = wrench_array(quality.task_wrench, 'task_wrench')
@@ -74,12 +96,21 @@ class Controls:
             self._azimuth.value, self._elevation.value = map(round, angles(vector))
             self._size.value = float(np.linalg.norm(vector))
 
+    def _follow_load(self, quality: GraspQuality | None) -> None:
+        """Take over the node's load; without a task it evaluated nothing and tells none."""
+        load = None
+        if quality is not None and wrench_array(quality.task_wrench, 'task_wrench').any():
+            load = tuple(wrench_array(quality.external_wrench, 'external_wrench').tolist())
+        if load not in (None, self._node_load) and time.monotonic() >= self._own_until:
+            self._load.value = load[:3]
+        self._node_load = load
+
     @property
     def choice(self) -> TaskChoice:
         """Return what the controls stand at."""
         return TaskChoice(
             self._kind.value, self._quantity.value, self._azimuth.value, self._elevation.value,
-            self._size.value, self._half_angle.value, self._preset.value, self._load.value)
+            self._size.value, self._half_angle.value, self._preset.value)
 
     def _on_task(self, event: Any) -> None:
         self._show_what_counts()
@@ -96,9 +127,20 @@ class Controls:
         self._azimuth.value, self._elevation.value = map(round, angles(vector))
         self._send_task()
 
+    def _on_load(self, event: Any) -> None:
+        if event.client is not None:
+            torque = (self._node_load or (0.0,) * 6)[3:]
+            self._own_load = (*self._load.value, *torque)
+            self._own_until = time.monotonic() + OWN_LOAD_S
+            self._send_task()
+
     def _send_task(self) -> None:
+        load = self._own_load if time.monotonic() < self._own_until else self._node_load
+        if load is None:
+            self._say(NO_LOAD, False)
+            return
         self._touched = True
-        request = set_task_request(self.choice)
+        request = set_task_request(dataclasses.replace(self.choice, load=load))
         self._sender.send(lambda done: self._caller.call(
             SetTask, f'{self._target}/set_task', request, done), self._on_task_answer)
 

@@ -39,8 +39,8 @@ class TaskChoice:
         Of the cone [degrees], below 90.
     preset : str
         One of PRESETS: the wrenches of a polytope.
-    load : tuple of 3 float
-        External force [N], object frame, through its origin.
+    load : tuple of 3 or 6 float
+        External force, and torque about its origin if any [N, N m], object frame.
 
     """
 
@@ -51,7 +51,7 @@ class TaskChoice:
     size: float = 1.0
     half_angle_deg: float = 20.0
     preset: str = AROUND
-    load: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    load: tuple[float, ...] = (0.0, 0.0, 0.0)
 
 
 def direction(azimuth_deg: float, elevation_deg: float) -> Array:
@@ -85,7 +85,7 @@ def set_task_request(choice: TaskChoice) -> SetTask.Request:
         zero = np.zeros(3)
         return np.concatenate([part, zero] if choice.quantity == FORCE else [zero, part])
 
-    request = SetTask.Request(external_wrench=to_wrench((*choice.load, 0.0, 0.0, 0.0)))
+    request = SetTask.Request(external_wrench=to_wrench((*choice.load, 0.0, 0.0, 0.0)[:6]))
     if choice.kind == WRENCH:
         request.kind = SetTask.Request.WRENCH
         request.task_wrench = to_wrench(wrench(along))

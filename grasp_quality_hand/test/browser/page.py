@@ -42,7 +42,7 @@ def start_viewer(log, **parameters):
     """Start the viewer; return its process and the address that it tells."""
     prefix = Path(get_package_prefix('grasp_quality_hand'))
     command = [prefix / 'lib' / 'grasp_quality_hand' / 'viewer', '--ros-args',
-               '-p', f'port:={PORTS[hash(str(log)) % len(PORTS)]}']
+               '-p', 'controls:=true', '-p', f'port:={PORTS[hash(str(log)) % len(PORTS)]}']
     for name, value in parameters.items():
         command += ['-p', f'{name}:={value}']
     process = Process(command, log)
