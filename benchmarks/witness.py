@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test' / 'node'), str(ROOT / 'test' / 'reliability')]
 
 from geometry_msgs.msg import PoseArray  # noqa: E402
-from grasp_quality_hand.force_audit_node import ByHand  # noqa: E402
+from grasp_quality_hand.by_hand import ByHand  # noqa: E402
 from grasp_quality_msgs.msg import ContactForceArray, GraspQuality, ResultCode  # noqa: E402
 from harness import Client  # noqa: E402
 from msg_adapters.stamps import stamp_ns  # noqa: E402

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from grasp_quality_hand.force_rules import Array, Force, Joint, Limits
+import numpy as np
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,7 @@ class Settings:
     contact_names: tuple[str, ...]
     contact_fingers: tuple[str, ...]
     max_contact_age: float
+    contact_source: str = 'pose_array'
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,22 @@ def limits_of(received: Contacts, settings: Settings) -> dict[str, Limits]:
             gamma if model == 'SFCE' else 0.0,
             settings.max_normal_force if contact.cap is None else contact.cap, finger or name)
     return limits
+
+
+def limits_alone(forces: Sequence[Force], settings: Settings) -> dict[str, Limits]:
+    """Limits of contacts that came as poses, from what their forces say of them."""
+    names = settings.contact_names
+    fingers = {names[i] if i < len(names) else f'contact_{i}': finger
+               for i, finger in enumerate(settings.contact_fingers)}
+    return limits_of(Contacts(0, '', [
+        ReceivedContact(force.position, _axes_along(force.normal), force.name,
+                        fingers.get(force.name, '')) for force in forces], False), settings)
+
+
+def _axes_along(normal: Array) -> Array:
+    side = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
+    side /= np.linalg.norm(side)
+    return np.column_stack([side, np.cross(normal, side), normal])
 
 
 def joints_of(received: Contacts, names: Sequence[str]) -> list[Joint]:

@@ -22,12 +22,12 @@ from geometry_msgs.msg import PoseArray, WrenchStamped
 from grasp_quality_hand import audit_messages
 from grasp_quality_hand.audit_parts import Forces, Settings
 from grasp_quality_hand.audit_sequence import Sequence
+from grasp_quality_hand.by_hand import ByHand
 from grasp_quality_hand.force_records import ForceRecords
 from grasp_quality_msgs.msg import ContactArray, ContactForceArray, GraspQuality
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent
 from rcl_interfaces.srv import GetParameters
 import rclpy
-from rclpy.callback_groups import CallbackGroup
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -42,30 +42,11 @@ JUDGE_PERIOD_S = 0.2
 REPORT_PERIOD_S = 1.0
 ANSWER_S = 5.0  # after which an answer about parameters will not come
 PLAIN_NAME = re.compile('[A-Za-z_][A-Za-z0-9_]*')  # others make no topic
+MOST_NAMES = 256  # of contacts whose wrenches are listened to
 SHOWN = 10  # violations in a report
-UNSET = ('contact_names', 'contact_fingers')  # read-only, and perhaps not set
+LISTS = ('contact_names', 'contact_fingers')
+UNSET = (*LISTS, 'contact_source')  # read-only, and perhaps not set
 REQUIRED = tuple(f.name for f in dataclasses.fields(Settings) if f.name not in UNSET)
-
-
-class ByHand(CallbackGroup):
-    """
-    Subscriptions that no executor looks at.
-
-    Thousands of messages a second, each by itself through an executor, would take a core; taken
-    together before they are judged they take an eighth of that.
-
-    """
-
-    def can_execute(self, entity: Any) -> bool:
-        """Leave everything alone."""
-        return False
-
-    def beginning_execution(self, entity: Any) -> bool:
-        """Leave everything alone."""
-        return False
-
-    def ending_execution(self, entity: Any) -> None:
-        """Leave everything alone."""
 
 
 class ForceAuditNode(Node):
@@ -89,6 +70,8 @@ class ForceAuditNode(Node):
         self._by_hand = ByHand()
         self._takes: list[Callable[[], bool]] = []
         self._wrench_topics: set[str] = set()
+        self._too_many_names = False
+        self._most_publishers = 0  # of contact_forces at one time
         self._parameter_client = self.create_client(GetParameters, f'{self.target}/get_parameters')
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._take_from(ParameterEvent, '/parameter_events', OUTPUT, self._change)
@@ -133,10 +116,16 @@ class ForceAuditNode(Node):
 
     def _read_forces(self, message: ContactForceArray, sent_ns: int) -> Forces:
         for item in message.forces:
-            if item.name not in self._wrench_topics and PLAIN_NAME.fullmatch(item.name):
+            if item.name in self._wrench_topics or not PLAIN_NAME.fullmatch(item.name):
+                continue
+            if len(self._wrench_topics) < MOST_NAMES:
                 self._wrench_topics.add(item.name)
                 self._listen(WrenchStamped, f'optimal_wrenches/{item.name}', OUTPUT,
                              audit_messages.read_wrench)
+            elif not self._too_many_names:
+                self._too_many_names = True
+                self.records.count.violations += 1
+                self._tell(f'more than {MOST_NAMES} contact names')
         forces = audit_messages.read_forces(message, sent_ns)
         if self.get_parameter('use_sim_time').value:  # stamps and sending are of two clocks
             forces = dataclasses.replace(forces, age_s=None)
@@ -154,6 +143,8 @@ class ForceAuditNode(Node):
         if not self._holding and self.count_subscribers(f'{self.target}/holding_forces'):
             self._holding = True
             self._listen(ContactForceArray, 'holding_forces', OUTPUT, self._read_holding)
+        self._most_publishers = max(
+            self._most_publishers, self.count_publishers(f'{self.target}/contact_forces'))
         for text in self.records.judge(time.monotonic()):
             self._tell(text)
 
@@ -171,7 +162,8 @@ class ForceAuditNode(Node):
             # what was changed meanwhile is newer than the answer
             if set(REQUIRED) <= set(found) and self._changed_s < self._asked_s:
                 self._hold(Settings(**{
-                    **found, **{name: tuple(found.get(name) or ()) for name in UNSET}}))
+                    **found, **{name: tuple(found.get(name) or ()) for name in LISTS},
+                    'contact_source': found.get('contact_source') or ''}))
             self._asked = {}
         if self._asked and now_s > self._asked_s + ANSWER_S:
             for asked in self._asked.values():
@@ -202,13 +194,16 @@ class ForceAuditNode(Node):
         missing = ', '.join(f'{n} without {what}' for what, n in count.unjudged.items())
         return (f'{count.judged or "no"} force sets judged, {count.violations} violations'
                 + (f', not judged: {missing}' if missing else '')
+                + (f', {self._most_publishers} publishers of contact_forces at one time'
+                   if self._most_publishers > 1 else '')
                 + ('' if count.judged else f': is {self.target} the node, active, with a task?'))
 
     def _report(self) -> None:
         violated = bool(self.records.count.violations)
         status = DiagnosticStatus(
             level=DiagnosticStatus.ERROR if violated else (
-                DiagnosticStatus.WARN if self.records.count.unjudged else DiagnosticStatus.OK),
+                DiagnosticStatus.WARN if self.records.count.unjudged or self._most_publishers > 1
+                else DiagnosticStatus.OK),
             name=f'{self.get_name()}: {self.target}', message=self.summary(),
             hardware_id=self.target,
             values=[KeyValue(key=f'violation {i}', value=t) for i, t in enumerate(self._recent)])

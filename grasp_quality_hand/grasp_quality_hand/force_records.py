@@ -7,7 +7,8 @@ Topics arrive in any order, one stamp may be evaluated more than once (a new tas
 change between a sample and its answer. So a force set is judged ``GRACE_S`` after it came: it must
 pass with one combination of contacts and quality of its own stamp and parameters of the moment at
 which it was sent: on a busy machine it may be read long after they were replaced.
-What cannot be judged because a part never came (best effort topics may lose one) is counted apart.
+What cannot be judged because a part never came (best effort topics may lose one) is counted apart,
+and judged by what must hold whatever that part was.
 So is an objection that rests on a quality not seen, near (``GRACE_S``) qualities known to be lost.
 """
 
@@ -17,9 +18,9 @@ import itertools
 from typing import TypeVar
 
 from grasp_quality_hand.audit_parts import (
-    Contacts, Forces, joints_of, limits_of, LocalWrench, Quality, Settings)
+    Contacts, Forces, joints_of, limits_alone, limits_of, LocalWrench, Quality, Settings)
 from grasp_quality_hand.force_rules import (
-    broken_balance, broken_forces, broken_joints, SMALL)
+    broken_alone, broken_balance, broken_forces, broken_joints, SMALL)
 import numpy as np
 
 Part = TypeVar('Part')
@@ -30,6 +31,7 @@ PATIENCE_S = 20.0  # for the first parameters
 MEMORY_S = 4.0   # parts older than this are forgotten
 SETTINGS_MEMORY_S = 60.0  # and parameters that were replaced so long ago
 MOST_TRIED = 200  # combinations of parts of one stamp
+OWN_CAPS = 1e3  # largest cap of a contact's own over the node's, or over any force beside it
 MOST = 20_000    # parts of one kind that are kept, whatever their age
 
 
@@ -48,6 +50,7 @@ class ForceRecords:
     def __init__(self, allowance_s: float = 0.05) -> None:
         self._allowance_s = allowance_s
         self._patience_s = np.inf
+        self._own_limits = False  # contacts came that may bring limits of their own
         self._kept: dict[type, deque[tuple[float, object]]] = {}
         self._stamped: dict[tuple[type, int], list[object]] = {}  # the same by kind and stamp
         self._alphas: Counter[float] = Counter()  # of the OPTIMAL qualities among them
@@ -65,6 +68,7 @@ class ForceRecords:
 
         """
         sent_s = now_s if sent_s is None else sent_s
+        self._own_limits |= isinstance(part, Contacts) and not part.are_poses
         kept = self._kept.setdefault(type(part), deque())
         if isinstance(part, Settings):
             if not kept or kept[-1][1] != part:
@@ -162,7 +166,9 @@ class ForceRecords:
         for name, found in (('parameters', settings), ('contacts', contacts),
                             ('quality', qualities), ('transform', in_frame)):
             if not found:
-                return self._leave(name)
+                self._leave(name)
+                return [f'forces of stamp {part.stamp}, judged without {name}: {text}'
+                        for text in self._wrong_alone(part, settings)]
         best: list[str] | None = None
         tried = itertools.product(in_frame[::-1], qualities[::-1], settings[::-1])
         for parts in itertools.islice(tried, MOST_TRIED):
@@ -179,6 +185,17 @@ class ForceRecords:
             return self._leave('quality')
         self.count.judged += 1
         return [f'forces of stamp {part.stamp}: {text}' for text in best or ()]
+
+    def _wrong_alone(self, part: Forces, settings: list[Settings]) -> list[str]:
+        """Tell what is wrong with forces whatever the contacts and the quality were."""
+        if self._own_limits or not settings or any(
+                own.contact_source != 'pose_array' for own in settings):
+            sizes = [np.abs(force.wrench[:3]).max() for force in part.forces]
+            return broken_alone(part.forces, OWN_CAPS * max(
+                [*sizes, *(own.max_normal_force for own in settings)]))
+        return min((broken_alone(part.forces, own.max_normal_force) or broken_forces(
+            part.forces, limits_alone(part.forces, own), own.force_bound)
+            for own in settings), key=len)
 
     def _leave(self, missing: str) -> list[str]:
         self.count.unjudged[missing] = self.count.unjudged.get(missing, 0) + 1

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 BALANCE = 1e-6  # of the caps' sum; torques over the largest distance from the contacts' mean
 CONE = 1e-6     # of a cone usage or a use of the bound
 PLACE = 1e-9    # of positions [m, relative above one] and unit normals [-]
+UNIT = 1e-6     # of the length of a normal
 JOINT = 1e-6    # of a joint's largest torque
 UNKNOWN = np.full(6, np.nan)  # no column: a node must refuse such joint limits
 SMALL = 1e-6    # share of the cap below which a contact counts as not loaded
@@ -91,6 +92,26 @@ class Force:
     normal: Array
     wrench: Array
     cone_usage: float
+
+
+def broken_alone(forces: Sequence[Force], cap: float) -> list[str]:
+    """Tell what is wrong whatever the contacts were; no contact has a cap above ``cap`` [N]."""
+    said = []
+    if len({force.name for force in forces}) < len(forces):
+        said.append('a contact has two forces')
+    for force in forces:
+        numbers = np.concatenate([force.position, force.normal, force.wrench, [force.cone_usage]])
+        if not np.isfinite(numbers).all():
+            said.append(f'{force.name}: not finite: {numbers.tolist()}')
+            continue
+        n = float(force.wrench[:3] @ force.normal)
+        if abs(float(np.linalg.norm(force.normal)) - 1.0) > UNIT:
+            said.append(f'{force.name}: its normal is no unit vector')
+        if n < -CONE * cap:
+            said.append(f'{force.name}: it pulls with {-n:.6g} N')
+        if n > 10.0 * SMALL * cap and not 0.0 <= force.cone_usage <= 1.0 + CONE:
+            said.append(f'{force.name}: its cone usage is {force.cone_usage:.9g}')
+    return said
 
 
 def broken_forces(forces: Sequence[Force], limits: Mapping[str, Limits], bound: str) -> list[str]:

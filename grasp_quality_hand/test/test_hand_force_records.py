@@ -4,7 +4,8 @@
 
 import itertools
 
-from audit_cases import changed, CONTACTS, FORCES, LOCAL, QUALITY, RIGHT_FORCE, SETTINGS
+from audit_cases import (
+    changed, CONTACTS, FORCES, LEFT_FORCE, LOCAL, QUALITY, RIGHT_FORCE, SETTINGS)
 from grasp_quality_hand.audit_parts import limits_of, Quality, ReceivedJoint
 from grasp_quality_hand.force_records import ForceRecords, GRACE_S, PATIENCE_S
 import numpy as np
@@ -205,3 +206,44 @@ def test_a_loss_of_long_before_excuses_nothing():
     for part in (QUALITY, 4.0):
         records.store(part, 3.0)
     assert records.judge(3.0 + 2.0 * GRACE_S) == ['alpha 4 stands in no OPTIMAL quality']
+
+
+PUSHED = np.array([6.0, 0.0, 3.0, 0.0, 0.0, 0.0])  # by the left contact
+
+
+@pytest.mark.parametrize('missing', [CONTACTS, QUALITY])
+@pytest.mark.parametrize('fields, words', [
+    ({'wrench': 1e9 * PUSHED}, 'of the bound linf'),
+    ({'wrench': np.array([10.1, 0.0, 0.0, 0.0, 0.0, 0.0]), 'cone_usage': 0.0}, 'of the bound'),
+    ({'wrench': -PUSHED, 'cone_usage': 0.0}, 'it pulls'), ({'cone_usage': 1.5}, 'its cone usage'),
+    ({'cone_usage': 0.5}, 'its cone usage is 1, not 0.5'), ({'cone_usage': np.nan}, 'not finite'),
+    ({'normal': np.array([2.0, 0.0, 0.0])}, 'no unit vector'), ({'name': 'right'}, 'two forces'),
+    ({'wrench': np.array([6.0, 0.0, 3.1, 0.0, 0.0, 0.0])}, 'outside its friction cone')])
+def test_forces_that_are_wrong_whatever_is_missing_are_violations(missing, fields, words):
+    bad = changed(FORCES, forces=[changed(LEFT_FORCE, **fields), RIGHT_FORCE])
+    parts = [bad if part is FORCES else part for part in ALL if part is not missing]
+    said, count = judged(*parts)
+    assert any(words in text for text in said), said
+    assert count.violations == len(said)
+
+
+@pytest.mark.parametrize('others', [
+    (SETTINGS, changed(CONTACTS, are_poses=False, stamp=7)),
+    (changed(SETTINGS, contact_source='contact_array'),), ()])
+def test_contacts_may_bring_limits_of_their_own_that_excuse_what_they_can(others):
+    """A cap and a friction coefficient, but no pulling and no cone usage above one."""
+    strong = changed(FORCES, forces=[changed(f, wrench=50.0 * f.wrench) for f in FORCES.forces])
+    said, count = judged(*others, strong)
+    assert said == [] and count.unjudged
+    for fields, words in (({'wrench': -PUSHED}, 'it pulls'), ({'cone_usage': 1.5}, 'usage is 1.5'),
+                          ({'wrench': np.full(6, np.nan)}, 'not finite')):
+        said, _ = judged(*others, changed(FORCES, forces=[changed(LEFT_FORCE, **fields)]))
+        assert len(said) == 1 and words in said[0]
+
+
+def test_without_contacts_the_bound_of_a_finger_and_parameters_before_count():
+    settings = changed(SETTINGS, force_bound='finger', contact_fingers=('hand', 'hand'))
+    said, _ = judged(settings, FORCES)
+    assert len(said) == 1 and '1.2 of the bound finger' in said[0]
+    said, _ = judged(changed(SETTINGS, max_normal_force=5.0), SETTINGS, FORCES)
+    assert said == []

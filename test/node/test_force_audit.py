@@ -133,3 +133,53 @@ def test_forces_beside_a_failure_are_found(truth, impostor, audit):
 def test_to_have_judged_nothing_is_no_pass(impostor, audit):
     assert audit.end() == 2
     assert 'no force sets judged' in audit.log() and '/impostor/grasp_quality' in audit.log()
+
+
+def test_forces_of_no_contacts_are_no_pass_when_they_pull(truth, impostor, audit):
+    """With a stamp that nothing was sensed at; the true ones go on."""
+    def rogue():
+        parts = stamped(truth, impostor.node)
+        impostor.say(parts)
+        forces = copy.deepcopy(parts[2])
+        forces.header.stamp.nanosec ^= 1
+        for force in forces.forces:
+            force.wrench.force.x *= -1e9
+            force.wrench.force.y *= -1e9
+        return (*parts[:2], forces)
+    impostor.say_until_found(audit, rogue)
+    assert audit.end() == 1
+    assert 'judged without contacts' in audit.log() and 'it pulls' in audit.log()
+
+
+def test_names_without_end_are_told_once_and_end_nothing(truth, impostor, audit):
+    def renamed():
+        parts = stamped(truth, impostor.node)
+        for force in parts[2].forces:
+            force.name = f'{force.name}_{parts[2].header.stamp.nanosec}'
+        return parts
+    deadline = time.monotonic() + DEADLINE_S
+    while 'contact names' not in audit.log():
+        assert time.monotonic() < deadline and audit.popen.poll() is None, audit.log()
+        impostor.say(renamed())
+    for _ in range(100):
+        impostor.say(renamed())
+    listened = [topic for topic, _ in impostor.node.get_topic_names_and_types()
+                if topic.startswith('/impostor/grasp_quality/optimal_wrenches/')]
+    assert audit.end() == 1
+    assert len(listened) <= 256 and audit.log().count('more than 256 contact names') == 1
+
+
+def test_a_second_publisher_of_forces_is_told(truth, impostor, audit):
+    other = Impostor('/impostor')
+    try:
+        deadline = time.monotonic() + DEADLINE_S
+        reports = []
+        impostor.node.create_subscription(DiagnosticArray, '/diagnostics', reports.append, 10)
+        while not any('2 publishers' in status.message and status.level != status.OK
+                      for report in reports for status in report.status):
+            assert time.monotonic() < deadline, audit.log()
+            impostor.say(stamped(truth, impostor.node))
+    finally:
+        other.close()
+    audit.end()
+    assert '2 publishers of contact_forces at one time' in audit.log()
