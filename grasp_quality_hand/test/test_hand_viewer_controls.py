@@ -12,8 +12,8 @@ import time
 from geometry_msgs.msg import Vector3, Wrench
 from grasp_quality_hand.viewer_controls import Controls
 from grasp_quality_msgs.msg import GraspQuality
-import msgspec
 from msg_adapters.wrenches import to_wrench, wrench_array
+import msgspec
 import pytest
 import viser
 import websockets
