@@ -142,11 +142,12 @@ class GraspQualityNode(LifecycleNode):
 
     def _report(self):
         """Report once a second; who publishes contacts elsewhere is looked up while none come."""
-        elsewhere = '' if self._inputs.has_contacts else self._elsewhere()
+        elsewhere = self._elsewhere() if self._inputs.contacts is None else ''
         if elsewhere and elsewhere != self._inputs.elsewhere:
             self.get_logger().warning(f'no contacts received yet{elsewhere}')
         self._inputs.elsewhere = elsewhere
-        self._monitor.report(self._inputs.problems, (*self._unknown, *self._inputs.doubts()))
+        self._monitor.report(self._inputs.problems, (
+            *self._unknown, *self._inputs.doubts(), *self._outputs.rivals()))
 
     def _elsewhere(self):
         own = self.settings.contact_source
@@ -174,6 +175,7 @@ class GraspQualityNode(LifecycleNode):
         if 'max_contact_age' in names:
             self._watchdog.timer_period_ns = int(
                 1e9 * WATCH_SHARE * self.settings.max_contact_age)
+            self._watchdog.reset()  # else it sleeps on for one old period; _evaluate looks now
         if any(name in parameters.TABLE for name in names):
             self._evaluate()
 

@@ -61,16 +61,18 @@ class Inputs:
         self.tf_buffer: Any = None  # tf2_ros.Buffer where tf2 is installed
         self._felt: Felt | None = None  # by the contacts of the last scene
         self.elsewhere = ''  # who else publishes contacts, while none have come
+        self.cleared = 0  # how often
 
     def clear(self) -> None:
         """Forget contacts and measurements, as on deactivation; keep the task."""
         self._contacts = self._felt = None
         self._wrenches = {}
+        self.cleared += 1
 
     @property
-    def has_contacts(self) -> bool:
-        """Whether any contacts came."""
-        return self._contacts is not None
+    def contacts(self) -> tuple[Any, int] | None:
+        """Newest contact message and its steady time of arrival [ns]; None before any."""
+        return self._contacts
 
     @property
     def problems(self) -> tuple[str, ...]:
@@ -130,22 +132,23 @@ class Inputs:
         if len(wrench):
             self.task = HeldTask(to_wrench(wrench), NoFrame())
 
-    def age_s(self) -> float:
+    def age_s(self, contacts: tuple[Any, int] | None = None) -> float:
         """
-        Age of the newest contacts [s], by stamp and arrival.
+        Age of the newest contacts, or of those once read [s], by stamp and arrival.
 
         Raises
         ------
         NoContactsError, StaleContactsError
 
         """
-        if self._contacts is None:
+        held = contacts or self._contacts
+        if held is None:
             source = self._settings().contact_source
             raise NoContactsError(
                 f'no contacts received yet on {SOURCES[source]} (parameter contact_source is '
                 f'{source}){self.elsewhere}')
         limit = self._settings().max_contact_age
-        message, arrival = self._contacts
+        message, arrival = held
         ages = self._ages(message, arrival)
         if min(ages) < -limit:
             raise StaleContactsError(
@@ -153,7 +156,8 @@ class Inputs:
                 'the clocks (max_contact_age is the tolerance)')
         if max(ages) > limit:
             raise StaleContactsError(
-                f'the newest contacts are {max(ages):.3f} s old, max_contact_age is {limit:g} s'
+                f'the {"newest contacts" if contacts is None else "contacts of this answer"} are '
+                f'{max(ages):.3f} s old, max_contact_age is {limit:g} s'
                 + ' (not stamped: as sent)' * (stamp_ns(message.header.stamp) == 0))
         return max(max(ages), 0.0)
 

@@ -70,6 +70,12 @@ class Outputs:
         if not optimal and self.holding_wanted:
             self.publish_holding(quality.header, None)
 
+    def rivals(self):
+        """Say which topics of forces somebody else publishes on too."""
+        topics = (publisher.topic_name for publisher in (self._forces, self._holding))
+        return [f'another node publishes on {topic}: two nodes of one name?'
+                for topic in topics if self._node.count_publishers(topic) > 1]
+
     @property
     def holding_wanted(self):
         """Whether somebody listens to the holding forces."""

@@ -56,8 +56,9 @@ TABLE: dict[str, tuple[Type, str, tuple[float, float] | None, bool]] = {
                        'alpha', (0.0, LARGE), False),
     'alpha_reserve': (Type.DOUBLE, 'Share d of alpha given up for unique forces with margin that '
                       'do not jump [-]; 0: forces of the largest alpha', (0.0, 1.0), False),
-    'force_rate_limit': (Type.DOUBLE, 'Largest change of the published force of a contact [N/s], '
-                         'a moment counted as m_n / gamma; 0: none', (0.0, LARGE), False),
+    'force_rate_limit': (Type.DOUBLE, 'Largest change of the force of a contact on '
+                         '~/contact_forces [N/s], a moment counted as m_n / gamma; 0: none; '
+                         '~/holding_forces and services are not limited', (0.0, LARGE), False),
     'task_wrench': (Type.DOUBLE_ARRAY, 'Task of the live loop: fx fy fz [N] tx ty tz [N m] in the '
                     'object frame; not set: none until one is given', None, False),
     'min_contact_force': (Type.DOUBLE, 'Measured normal force [N] from which a contact counts as '

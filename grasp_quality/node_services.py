@@ -5,7 +5,8 @@ The services of the node: each reads a request, asks the core once, and fills th
 
 ``Services`` gives every handler the same boundary: whatever goes wrong becomes a fresh response
 with a result code, so that a client always gets an answer and never half of one. What may take
-long is awaited (``node_worker``), so that the live loop goes on; the inputs are read before.
+long is awaited (``node_worker``), so that the live loop goes on. ``node_questions`` reads the
+inputs when its turn comes, and refuses an answer whose inputs were replaced or are stale since.
 """
 
 import inspect
@@ -18,11 +19,11 @@ from grasp_quality.explanation import explain
 from grasp_quality.holding import minimum_forces
 from grasp_quality.measures import evaluate, wrench_map
 from grasp_quality.node_log import Refusals
+from grasp_quality.node_questions import Questions
 from grasp_quality.node_worker import Worker
 from grasp_quality.robust import robust_alpha
 from grasp_quality.status import Status
 from grasp_quality.task import TaskWrench
-from grasp_quality.time_limit import TimeLimit
 from grasp_quality_msgs import srv
 from msg_adapters import qos
 from msg_adapters.errors import InvalidMessageError, NotActiveError
@@ -36,7 +37,6 @@ from msg_adapters.uncertainty import fill_robust_alpha, noise_from, sampling_fro
 from msg_adapters.worst_case import ellipsoid_from, fill_ball_radius, width_from
 from msg_adapters.wrenches import to_wrench
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
-from std_msgs.msg import Header
 
 SURFACE_SAMPLES = 32
 MANY_CONTACTS = 64  # from which on even a single task may take long
@@ -51,6 +51,7 @@ class Services:
         self._is_active = is_active
         self._refusals = Refusals(node.get_logger().warning)
         self._worker = Worker(node)
+        self._ask = Questions(inputs, settings, self._check_active, self._worker).asked
         for kind, handler in (
                 (srv.EvaluateTaskWrench, self.evaluate_task_wrench),
                 (srv.EvaluateTaskCone, self.evaluate_task_cone),
@@ -87,97 +88,84 @@ class Services:
             raise NotActiveError('the node is not active: configure and activate it, as with '
                                  'ros2 lifecycle set')
 
-    def _question(self, request):
-        """Grasp, header of the answer, transform of the request's wrenches, load."""
-        if request.contacts.contacts:
-            grasp, frame = self._inputs.read_grasp(request.contacts)
-            stamp = request.contacts.header.stamp
-        else:
-            scene = self._inputs.scene()
-            grasp, frame, stamp = scene.grasp, scene.frame, scene.stamp
-        transform = self._inputs.transform(request.header, frame, stamp)
-        load = load_from(request.external_wrench, transform)
-        return grasp, Header(stamp=stamp, frame_id=frame), transform, load
-
-    def _limit(self):
-        """Begin to count the time of this question; waiting for the worker is part of it."""
-        return TimeLimit.of(self._settings().solver_time_limit)
-
-    async def _evaluate(self, grasp, task, load):
-        settings = self._settings()
-        question = (grasp, task, load, settings.barrier_weight, self._limit(),
-                    settings.alpha_reserve)
-        if isinstance(task, TaskWrench) and len(grasp) < MANY_CONTACTS:
-            return evaluate(*question)
-        return await self._worker.run(evaluate, *question)
+    async def _evaluate(self, question, task):
+        settings = question.settings
+        arguments = (question.grasp, task, question.load, settings.barrier_weight,
+                     question.limit, settings.alpha_reserve)
+        if isinstance(task, TaskWrench) and not _is_large(question.grasp):
+            return evaluate(*arguments)
+        return await self._worker.run(evaluate, *arguments)
 
     async def evaluate_task_wrench(self, request, response):
         """Answer the largest alpha of one wrench, and its forces."""
-        grasp, header, transform, load = self._question(request)
-        solution = await self._evaluate(grasp, wrench_task(request.task_wrench, transform), load)
-        response.result = status_result(solution.status, remark=solution.remark)
-        response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
-        response.alpha_lower, response.holdable = solution.alpha_lower, solution.holdable
-        response.forces = force_array(header, grasp, solution.forces, solution.cone_usage)
-        response.limiting_contact = solution.limiting_contact
-        response.dalpha_dexternal_wrench = to_wrench(solution.dalpha_dexternal_wrench)
+        async with self._ask(request, response, _is_large) as question:
+            task = wrench_task(request.task_wrench, question.transform)
+            solution = await self._evaluate(question, task)
+            response.result = status_result(solution.status, remark=solution.remark)
+            response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
+            response.alpha_lower, response.holdable = solution.alpha_lower, solution.holdable
+            response.forces = _forces(question, solution)
+            response.limiting_contact = solution.limiting_contact
+            response.dalpha_dexternal_wrench = to_wrench(solution.dalpha_dexternal_wrench)
 
     async def evaluate_task_cone(self, request, response):
         """Answer the largest alpha_z inside a cone of wrenches."""
-        grasp, header, transform, load = self._question(request)
-        task = cone_task(request, transform, SURFACE_SAMPLES)
-        solution = await self._evaluate(grasp, task, load)
-        response.result = status_result(solution.status, remark=solution.remark)
-        if solution.feasible:
-            response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
-            response.alpha_axis = solution.alpha_axis
-            response.alpha_worst = solution.alpha_worst
-        response.optimal_wrench = to_wrench(solution.wrench)
-        response.forces = force_array(header, grasp, solution.forces, solution.cone_usage)
+        async with self._ask(request, response) as question:
+            task = cone_task(request, question.transform, SURFACE_SAMPLES)
+            solution = await self._evaluate(question, task)
+            response.result = status_result(solution.status, remark=solution.remark)
+            if solution.feasible:
+                response.alpha, response.alpha_upper = solution.alpha, solution.alpha_upper
+                response.alpha_axis = solution.alpha_axis
+                response.alpha_worst = solution.alpha_worst
+            response.optimal_wrench = to_wrench(solution.wrench)
+            response.forces = _forces(question, solution)
 
     async def evaluate_task_polytope(self, request, response):
         """Answer alpha of every wrench by itself, and what they guarantee together."""
-        grasp, header, transform, load = self._question(request)
-        task = polytope_task(request, transform, self._settings().max_request_size)
-        answer = await self._evaluate(grasp, task, load)
-        response.result = status_result(answer.status)
-        if answer.status is Status.INFEASIBLE:
-            return
-        response.quality, response.alpha_min = answer.quality, answer.alpha_min
-        response.alphas = answer.alphas.tolist()
-        response.parallelotope_scale = answer.parallelotope_scale or 0.0
-        response.forces = [force_array(header, grasp, s.forces, s.cone_usage)
-                           for s in answer.solutions]
+        async with self._ask(request, response) as question:
+            task = polytope_task(
+                request, question.transform, question.settings.max_request_size)
+            answer = await self._evaluate(question, task)
+            response.result = status_result(answer.status)
+            if answer.status is Status.INFEASIBLE:
+                return
+            response.quality, response.alpha_min = answer.quality, answer.alpha_min
+            response.alphas = answer.alphas.tolist()
+            response.parallelotope_scale = answer.parallelotope_scale or 0.0
+            response.forces = [_forces(question, s) for s in answer.solutions]
 
     async def minimum_forces(self, request, response):
         """Answer the smallest forces that balance the external wrench."""
-        grasp, header, _, load = self._question(request)
-        answer = await self._worker.run(minimum_forces, grasp, load, self._limit())
-        response.result = status_result(answer.status, answer.reason)
-        response.peak = answer.peak if math.isfinite(answer.peak) else 0.0
-        response.forces = force_array(header, grasp, answer.forces, answer.cone_usage)
+        async with self._ask(request, response) as question:
+            answer = await self._worker.run(
+                minimum_forces, question.grasp, question.load, question.limit)
+            response.result = status_result(answer.status, answer.reason)
+            response.peak = answer.peak if math.isfinite(answer.peak) else 0.0
+            response.forces = _forces(question, answer)
 
     async def wrench_map(self, request, response):
         """Answer alpha for many directions."""
-        grasp, _, transform, load = self._question(request)
-        settings = self._settings()
-        if request.directions:
-            directions = wrench_rows(
-                request.directions, transform, settings.max_request_size, 'directions')
-        else:
-            directions = self._grid(request.resolution, settings)
-        answer = await self._worker.run(
-            wrench_map, grasp, directions, load, time_limit_s=self._limit())
-        if not answer.feasible.any():
-            response.result = status_result(Status.INFEASIBLE)
-            return
-        response.result = status_result(Status.OPTIMAL)
-        missing = len(directions) - int(answer.feasible.sum())
-        if missing:
-            response.result.message = (
-                f'{missing} of {len(directions)} directions are infeasible: alpha is 0 there')
-        response.directions = [to_wrench(d) for d in answer.directions.tolist()]
-        response.alphas = answer.alpha.tolist()
+        async with self._ask(request, response) as question:
+            settings = question.settings
+            if request.directions:
+                directions = wrench_rows(request.directions, question.transform,
+                                         settings.max_request_size, 'directions')
+            else:
+                directions = self._grid(request.resolution, settings)
+            answer = await self._worker.run(
+                wrench_map, question.grasp, directions, question.load,
+                time_limit_s=question.limit)
+            if not answer.feasible.any():
+                response.result = status_result(Status.INFEASIBLE)
+                return
+            response.result = status_result(Status.OPTIMAL)
+            missing = len(directions) - int(answer.feasible.sum())
+            if missing:
+                response.result.message = (
+                    f'{missing} of {len(directions)} directions are infeasible: alpha is 0 there')
+            response.directions = [to_wrench(d) for d in answer.directions.tolist()]
+            response.alphas = answer.alpha.tolist()
 
     def _grid(self, resolution, settings):
         steps = resolution or max(1, round(math.sqrt(settings.map_directions / 2)))
@@ -189,27 +177,28 @@ class Services:
 
     async def robust_alpha(self, request, response):
         """Answer the quantile of alpha under uncertain contacts, friction and load."""
-        grasp, _, transform, load = self._question(request)
-        settings = self._settings()
-        sampling = sampling_from(request, settings.quantile_level, settings.max_request_size)
-        fill_robust_alpha(response, await self._worker.run(
-            robust_alpha, grasp, wrench_task(request.task_wrench, transform), load,
-            **noise_from(request), **sampling, time_limit_s=self._limit()))
+        async with self._ask(request, response) as question:
+            settings = question.settings
+            sampling = sampling_from(request, settings.quantile_level, settings.max_request_size)
+            fill_robust_alpha(response, await self._worker.run(
+                robust_alpha, question.grasp,
+                wrench_task(request.task_wrench, question.transform), question.load,
+                **noise_from(request), **sampling, time_limit_s=question.limit))
 
     async def ball_radius(self, request, response):
         """Answer the radius of the largest ball of wrenches, the worst case."""
-        grasp, _, transform, _ = self._question(request)
-        settings = self._settings()
-        ellipsoid = ellipsoid_from(request, transform, settings.max_request_size)
-        answer = await self._worker.run(
-            ellipsoid_scale, grasp, ellipsoid, width_from(request), self._limit())
-        fill_ball_radius(response, answer)
+        async with self._ask(request, response) as question:
+            ellipsoid = ellipsoid_from(
+                request, question.transform, question.settings.max_request_size)
+            fill_ball_radius(response, await self._worker.run(
+                ellipsoid_scale, question.grasp, ellipsoid, width_from(request), question.limit))
 
     async def explain(self, request, response):
         """Answer what limits a task wrench, and what would change its alpha."""
-        grasp, _, transform, load = self._question(request)
-        fill_explanation(response, await self._worker.run(
-            explain, grasp, wrench_task(request.task_wrench, transform), load, self._limit()))
+        async with self._ask(request, response) as question:
+            task = wrench_task(request.task_wrench, question.transform)
+            fill_explanation(response, await self._worker.run(
+                explain, question.grasp, task, question.load, question.limit))
 
     def set_task(self, request, response):
         """Set task and load of the live loop, once they are known to be valid."""
@@ -217,3 +206,11 @@ class Services:
         load_from(request.external_wrench, None)
         self._inputs.set_task(request)
         response.result = status_result(Status.OPTIMAL)
+
+
+def _is_large(grasp):
+    return len(grasp) >= MANY_CONTACTS
+
+
+def _forces(question, answer):
+    return force_array(question.header, question.grasp, answer.forces, answer.cone_usage)

@@ -16,6 +16,8 @@ from lifecycle_msgs.srv import ChangeState
 from msg_adapters.stamps import stamp_ns
 from outputs import Outputs
 import pytest
+from rcl_interfaces.srv import SetParameters
+from rclpy.parameter import Parameter
 
 MAX_AGE_S = 0.5
 TASK = '[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]'
@@ -41,6 +43,24 @@ def feed(client, publisher):
 @pytest.fixture(scope='module')
 def outputs(client):
     return Outputs(client, ['left', 'right'])
+
+
+def test_silence_is_told_by_a_lower_age_as_soon_as_it_is_set(start):
+    node = start(max_contact_age=60.0, task_wrench=TASK)  # looks every 15 s
+    client, outputs = node.client, Outputs(node.client)
+    publisher = client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
+
+    def feed():
+        publisher.publish(pose_array(ANTIPODAL, client.now()))
+
+    outputs.answer(feed)
+    result, = client.call(SetParameters, 'set_parameters', feed, parameters=[
+        Parameter('max_contact_age', value=MAX_AGE_S).to_parameter_msg()]).results
+    assert result.successful
+    outputs.answer(feed)
+    silent = time.monotonic()
+    outputs.failure(ResultCode.STALE_CONTACTS)
+    assert time.monotonic() - silent < 2 * MAX_AGE_S
 
 
 def test_before_the_first_contacts_there_are_none(outputs):

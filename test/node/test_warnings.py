@@ -7,7 +7,7 @@ from types import SimpleNamespace
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseArray, WrenchStamped
 from grasp_quality_msgs import srv
-from grasp_quality_msgs.msg import ContactArray
+from grasp_quality_msgs.msg import ContactArray, ContactForceArray
 from grasps import ANTIPODAL, contact_array, pose_array, SOLVER, wrench
 from harness import BEST_EFFORT
 from outputs import Outputs
@@ -160,3 +160,14 @@ def test_a_misspelt_parameter_is_named_and_those_of_ros_are_not(misled):
     status = reports(misled.client)(
         lambda s: values(s)['result'] == 'OPTIMAL' and words in s.message, words, feed)
     assert status.level == DiagnosticStatus.WARN
+
+
+def test_somebody_else_who_publishes_forces_is_named(fingers):
+    topic = f'{fingers.client.target}/contact_forces'
+    words = f'another node publishes on {topic}: two nodes of one name?'
+    fingers.report(lambda status: words not in status.message, 'no such warning')
+    rival = fingers.client.node.create_publisher(ContactForceArray, topic, 1)
+    status = fingers.report(lambda status: words in status.message, 'the warning')
+    assert status.level == DiagnosticStatus.WARN and words in values(status).values()
+    fingers.client.node.destroy_publisher(rival)
+    fingers.report(lambda status: words not in status.message, 'the end of the warning')

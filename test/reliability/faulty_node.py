@@ -10,6 +10,7 @@ import dataclasses
 import os
 from pathlib import Path
 import sys
+import threading
 import time
 
 from grasp_quality import clarabel_solver, kernel_solver, node
@@ -54,7 +55,10 @@ def faulty(run):
         raw = run(problem, *args, **options)
         if fault == 'late':  # looks at its clock first, and then takes its time
             time.sleep(float(seconds))
-        return raw if fault in ('none', 'slow', 'late') else spoilt(raw, fault)
+        if fault == 'long' and threading.current_thread() is not threading.main_thread():
+            print('injected: long', flush=True)  # a service's, not the live loop
+            time.sleep(float(seconds))
+        return raw if fault in ('none', 'slow', 'late', 'long') else spoilt(raw, fault)
     return answer
 
 

@@ -26,6 +26,24 @@ def start_feed(log, namespace, *options):
     return feed
 
 
+def faulty(fault):
+    """Return what starts ``faulty_node.py``, whose solver fails as the file ``fault`` says."""
+    def start_faulty(log, namespace, **parameters):
+        command = [sys.executable, HERE / 'faulty_node.py', '--ros-args', '-r',
+                   f'__ns:={namespace}']
+        for name, value in parameters.items():
+            command += ['-p', f'{name}:={value}']
+        return Process(command, log, environment={'SOLVER_FAULT': str(fault)})
+    return start_faulty
+
+
+def inject(node, fault):
+    """Replace the file ``node.fault`` at once: half a word is no fault."""
+    new = node.fault.with_suffix('.new')
+    Path(new).write_text(fault)
+    new.replace(node.fault)
+
+
 def kill(process):
     """End a process as ``kill -9`` does."""
     process.popen.kill()

@@ -9,17 +9,14 @@ comes after the contacts are ``max_contact_age`` old is STALE_CONTACTS. The firs
 that is published.
 """
 
-from pathlib import Path
-import sys
-
 from geometry_msgs.msg import PoseArray
 from grasp_quality_msgs import srv
 from grasp_quality_msgs.msg import ResultCode
 from grasps import ANTIPODAL, contact_array, pose_array, SOLVER, wrench
-from harness import BEST_EFFORT, Process
+from harness import BEST_EFFORT
 from outputs import Outputs
 import pytest
-from rig import HERE, MAX_AGE_S, Record, TASK
+from rig import faulty, inject, MAX_AGE_S, Record, TASK
 
 LIMIT_S = 0.25
 
@@ -29,14 +26,7 @@ def node(start, tmp_path_factory):
     fault = tmp_path_factory.mktemp('fault') / 'fault.txt'
     fault.write_text('none')
 
-    def start_faulty(log, namespace, **parameters):
-        command = [sys.executable, HERE / 'faulty_node.py', '--ros-args', '-r',
-                   f'__ns:={namespace}']
-        for name, value in parameters.items():
-            command += ['-p', f'{name}:={value}']
-        return Process(command, log, environment={'SOLVER_FAULT': str(fault)})
-
-    node = start(start_node=start_faulty, max_contact_age=MAX_AGE_S, task_wrench=TASK,
+    node = start(start_node=faulty(fault), max_contact_age=MAX_AGE_S, task_wrench=TASK,
                  solver_time_limit=LIMIT_S)
     node.expected = {'internal error'}  # one of the faults is no SolverError
     node.fault = fault
@@ -56,13 +46,6 @@ def healed(node):
     assert node.outputs.answer(node.feed).quality.alpha == pytest.approx(10.0, rel=SOLVER)
     node.record.check(MAX_AGE_S)
     assert all(abs(m.alpha - 10.0) < 1e-4 for m in node.record.optimal())
-
-
-def inject(node, fault):
-    """Replace the file at once: half a word is no fault."""
-    new = node.fault.with_suffix('.new')
-    Path(new).write_text(fault)
-    new.replace(node.fault)
 
 
 def ask(node):
