@@ -77,11 +77,11 @@ def polytope_task(message: PolytopeFields, transform: Transform | None, limit: i
     wrenches = wrench_rows(message.task_wrenches, transform, limit, 'task_wrenches')
     if not len(wrenches):
         raise InvalidMessageError('task_wrenches must hold at least one wrench, got none')
-    weights = checked_numbers(message.weights, 'weights')
-    if weights and len(weights) != len(wrenches):
+    if len(message.weights) not in (0, len(wrenches)):
         raise InvalidMessageError(
             f'weights must be empty or hold one number for each of the {len(wrenches)} '
-            f'task_wrenches, got {len(weights)}')
+            f'task_wrenches, got {len(message.weights)}')
+    weights = checked_numbers(message.weights, 'weights')
     return TaskPolytope(wrenches, weights or None, parallelotope)
 
 

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tasks and loads: as given, in the object frame, and refused by field."""
 
+from collections.abc import Sequence
 import math
+from types import SimpleNamespace
 
 from adapter_messages import any_float, BAD_NUMBERS, shuffled_axes, wrench
 from grasp_quality import GraspQualityError, TaskCone, TaskPolytope, TaskWrench
@@ -123,6 +125,27 @@ def test_more_than_the_limit_is_refused_with_the_parameter():
         wrench_rows([wrench(fx=1.0)] * 10, None, 9, 'directions')
     with pytest.raises(InvalidMessageError, match='^task_wrenches must hold at most 2 .*got 3$'):
         polytope_task(polytope(3), None, 2)
+
+
+class Unread(Sequence):
+    """So many that nobody may look at a single one."""
+
+    def __len__(self):
+        return 1_000_000
+
+    def __getitem__(self, index):
+        raise AssertionError('looked at before the count')
+
+
+@pytest.mark.parametrize('read', [
+    lambda: wrench_rows(Unread(), None, 10, 'directions'),
+    lambda: polytope_task(SimpleNamespace(task_wrenches=Unread(), weights=[]), None, 10),
+    lambda: polytope_task(
+        SimpleNamespace(task_wrenches=[wrench(1.0)], weights=Unread()), None, 10)])
+def test_too_many_are_refused_by_their_count_alone(read):
+    with pytest.raises(InvalidMessageError) as caught:
+        read()
+    assert len(str(caught.value)) < 150
 
 
 def test_a_live_task_reads_the_fields_of_its_kind_alone():
