@@ -50,6 +50,7 @@ class ForceRecords:
     def __init__(self, allowance_s: float = 0.05) -> None:
         self._allowance_s = allowance_s
         self._patience_s = np.inf
+        self._known_s = np.inf  # when the first parameters came; nobody tells those before them
         self._own_limits = False  # contacts came that may bring limits of their own
         self._kept: dict[type, deque[tuple[float, object]]] = {}
         self._stamped: dict[tuple[type, int], list[object]] = {}  # the same by kind and stamp
@@ -71,6 +72,7 @@ class ForceRecords:
         self._own_limits |= isinstance(part, Contacts) and not part.are_poses
         kept = self._kept.setdefault(type(part), deque())
         if isinstance(part, Settings):
+            self._known_s = min(self._known_s, sent_s)
             if not kept or kept[-1][1] != part:
                 kept.append((sent_s, part))
         else:
@@ -167,8 +169,9 @@ class ForceRecords:
                             ('quality', qualities), ('transform', in_frame)):
             if not found:
                 self._leave(name)
+                known = settings if sent_s >= self._known_s else []
                 return [f'forces of stamp {part.stamp}, judged without {name}: {text}'
-                        for text in self._wrong_alone(part, settings)]
+                        for text in self._wrong_alone(part, known)]
         best: list[str] | None = None
         tried = itertools.product(in_frame[::-1], qualities[::-1], settings[::-1])
         for parts in itertools.islice(tried, MOST_TRIED):
@@ -183,6 +186,8 @@ class ForceRecords:
                 _wrong(part, received, None, own, self._allowance_s)
                 for received, own in itertools.product(in_frame, settings)):
             return self._leave('quality')
+        if best and sent_s < self._known_s:
+            return self._leave('settings of its time')
         self.count.judged += 1
         return [f'forces of stamp {part.stamp}: {text}' for text in best or ()]
 

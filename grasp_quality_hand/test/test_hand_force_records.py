@@ -6,7 +6,7 @@ import itertools
 
 from audit_cases import (
     changed, CONTACTS, FORCES, LEFT_FORCE, LOCAL, QUALITY, RIGHT_FORCE, SETTINGS)
-from grasp_quality_hand.audit_parts import limits_of, Quality, ReceivedJoint
+from grasp_quality_hand.audit_parts import limits_of, ReceivedJoint
 from grasp_quality_hand.force_records import ForceRecords, GRACE_S, PATIENCE_S
 import numpy as np
 import pytest
@@ -168,44 +168,6 @@ def test_joint_limits_that_came_with_the_contacts_are_kept():
         said, count = judged(*[limited if p is CONTACTS else p for p in ALL])
         assert [text.split(': ', 1)[1] for text in said] == broken and count.judged == 1
 
-
-def after_a_loss(*parts, lost_s=1.0):
-    """Judge parts of 1 s, of which the quality came after others that were lost since lost_s."""
-    records = ForceRecords()
-    records.store(SETTINGS, 0.0)
-    for part in parts:
-        records.store(part, 1.0, 1.0, lost_s if isinstance(part, Quality) else None)
-    return records.judge(3.0 * GRACE_S), records.count
-
-
-@pytest.mark.parametrize('parts', [
-    (QUALITY, 4.0), (CONTACTS, changed(QUALITY, alpha=2.9), FORCES),
-    (CONTACTS, changed(QUALITY, optimal=False, alpha=0.0, others=(0.0,)), FORCES)])
-def test_where_a_quality_is_known_to_be_lost_it_may_be_the_one_that_fits(parts):
-    said, count = after_a_loss(*parts)
-    assert said == [] and count.unjudged == {'quality': 1} and count.judged == 0
-    said, _ = after_a_loss(*parts, lost_s=None)
-    assert len(said) == 1
-
-
-@pytest.mark.parametrize('part, words', [
-    (changed(FORCES, forces=[FORCES.forces[0], changed(RIGHT_FORCE, wrench=np.array(
-        [-5.0, 0.0, 3.0, 0.0, 0.0, 0.0]))]), 'outside its friction cone'),
-    (changed(FORCES, age_s=0.2), 'after their contacts'),
-    (changed(QUALITY, others=(np.nan, 0.0)), 'not finite')])
-def test_a_lost_quality_excuses_nothing_that_is_wrong_whatever_it_said(part, words):
-    said, _ = after_a_loss(*[
-        part if type(part) is type(other) else other for other in (CONTACTS, QUALITY, FORCES)])
-    assert any(words in text for text in said), said
-
-
-def test_a_loss_of_long_before_excuses_nothing():
-    records = ForceRecords()
-    records.store(SETTINGS, 0.0)
-    records.store(QUALITY, 1.0, 1.0, 0.9)
-    for part in (QUALITY, 4.0):
-        records.store(part, 3.0)
-    assert records.judge(3.0 + 2.0 * GRACE_S) == ['alpha 4 stands in no OPTIMAL quality']
 
 
 PUSHED = np.array([6.0, 0.0, 3.0, 0.0, 0.0, 0.0])  # by the left contact

@@ -1,0 +1,59 @@
+# Copyright 2026 The grasp_quality authors
+# SPDX-License-Identifier: Apache-2.0
+"""The audit does not judge by what it cannot know: lost qualities, parameters of long before."""
+
+from audit_cases import changed, CONTACTS, FORCES, QUALITY, RIGHT_FORCE, SETTINGS
+from grasp_quality_hand.audit_parts import Quality
+from grasp_quality_hand.force_records import ForceRecords, GRACE_S
+import numpy as np
+import pytest
+
+
+def after_a_loss(*parts, lost_s=1.0):
+    """Judge parts of 1 s, of which the quality came after others that were lost since lost_s."""
+    records = ForceRecords()
+    records.store(SETTINGS, 0.0)
+    for part in parts:
+        records.store(part, 1.0, 1.0, lost_s if isinstance(part, Quality) else None)
+    return records.judge(3.0 * GRACE_S), records.count
+
+
+@pytest.mark.parametrize('parts', [
+    (QUALITY, 4.0), (CONTACTS, changed(QUALITY, alpha=2.9), FORCES),
+    (CONTACTS, changed(QUALITY, optimal=False, alpha=0.0, others=(0.0,)), FORCES)])
+def test_where_a_quality_is_known_to_be_lost_it_may_be_the_one_that_fits(parts):
+    said, count = after_a_loss(*parts)
+    assert said == [] and count.unjudged == {'quality': 1} and count.judged == 0
+    said, _ = after_a_loss(*parts, lost_s=None)
+    assert len(said) == 1
+
+
+@pytest.mark.parametrize('part, words', [
+    (changed(FORCES, forces=[FORCES.forces[0], changed(RIGHT_FORCE, wrench=np.array(
+        [-5.0, 0.0, 3.0, 0.0, 0.0, 0.0]))]), 'outside its friction cone'),
+    (changed(FORCES, age_s=0.2), 'after their contacts'),
+    (changed(QUALITY, others=(np.nan, 0.0)), 'not finite')])
+def test_a_lost_quality_excuses_nothing_that_is_wrong_whatever_it_said(part, words):
+    said, _ = after_a_loss(*[
+        part if type(part) is type(other) else other for other in (CONTACTS, QUALITY, FORCES)])
+    assert any(words in text for text in said), said
+
+
+@pytest.mark.parametrize('sent_s, wrong', [(0.5, 0), (1.5, 1)])
+def test_forces_of_before_the_first_known_parameters_are_not_judged_by_these(sent_s, wrong):
+    records = ForceRecords()
+    for part in (CONTACTS, QUALITY, FORCES):
+        records.store(part, sent_s)
+    records.store(changed(SETTINGS, friction_coefficient=0.1), 1.0)  # they lay outside its cones
+    said = records.judge(sent_s + 2.0 * GRACE_S)
+    assert bool(said) == bool(wrong)
+    assert records.count.unjudged == ({} if wrong else {'settings of its time': 1})
+
+
+def test_a_loss_of_long_before_excuses_nothing():
+    records = ForceRecords()
+    records.store(SETTINGS, 0.0)
+    records.store(QUALITY, 1.0, 1.0, 0.9)
+    for part in (QUALITY, 4.0):
+        records.store(part, 3.0)
+    assert records.judge(3.0 + 2.0 * GRACE_S) == ['alpha 4 stands in no OPTIMAL quality']
