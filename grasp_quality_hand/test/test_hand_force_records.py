@@ -169,7 +169,6 @@ def test_joint_limits_that_came_with_the_contacts_are_kept():
         assert [text.split(': ', 1)[1] for text in said] == broken and count.judged == 1
 
 
-
 PUSHED = np.array([6.0, 0.0, 3.0, 0.0, 0.0, 0.0])  # by the left contact
 
 
