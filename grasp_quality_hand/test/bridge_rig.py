@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A client that plays hand and object for force_to_effort, and the processes beside it."""
 
+from contextlib import contextmanager
 import math
 import re
 import signal
@@ -77,6 +78,16 @@ class Rig:
                    '-p', 'contact_links:=[left_finger, right_finger]',
                    '-p', 'max_joint_age:=1.0', '-p', 'max_pose_age:=1.0',
                    '-r', 'grasp_quality/contact_forces:=grasp_quality/holding_forces', *arguments)
+
+    @contextmanager
+    def bridging(self, *arguments):
+        """Run the bridge, and end everything after it."""
+        self.start_bridge(*arguments)
+        try:
+            self.until(lambda: self.commands, deadline=START)
+            yield self
+        finally:
+            self.close()
 
     def feed(self):
         """Publish contacts, joint states and the pose of the object, with one stamp."""

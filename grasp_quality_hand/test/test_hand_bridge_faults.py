@@ -7,7 +7,7 @@ import os
 import signal
 import time
 
-from bridge_rig import Rig, START
+from bridge_rig import Rig
 from geometry_msgs.msg import Point, Vector3, Wrench
 from grasp_quality_msgs.msg import ContactForce, ContactForceArray
 import numpy as np
@@ -17,6 +17,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 from two_fingers import LENGTH
 
+pytestmark = pytest.mark.alone  # it lets go of what is older than 0.1 s
 HELD = [-0.05, 0.05]    # right, left [N m]
 LONGEST_GAP_S = 1.0     # between commands, on a loaded machine; unpacking LARGE takes longer
 LARGE = 40_000          # forces
@@ -54,13 +55,9 @@ class ForcesRig(Rig):
 
 @pytest.fixture(scope='module')
 def rig(domain, tmp_path_factory):
-    rig = ForcesRig(tmp_path_factory.mktemp('faults'), domain)
-    rig.start_bridge('-p', f'holding_efforts:={HELD}', '-p', 'max_joint_age:=0.2')
-    try:
-        rig.until(lambda: rig.commands, deadline=START)
+    with ForcesRig(tmp_path_factory.mktemp('faults'), domain).bridging(
+            '-p', f'holding_efforts:={HELD}', '-p', 'max_joint_age:=0.2') as rig:
         yield rig
-    finally:
-        rig.close()
 
 
 def test_forces_that_waited_in_a_queue_are_not_followed(rig):

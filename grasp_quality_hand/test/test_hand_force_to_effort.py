@@ -22,12 +22,8 @@ def rig(domain, tmp_path_factory):
     """Return a rig with a quality node and a bridge that follows it."""
     rig = Rig(tmp_path_factory.mktemp('bridge'), domain)
     rig.start_quality()
-    rig.start_bridge('-p', f'holding_efforts:={HELD}')
-    try:
-        rig.until(lambda: rig.commands, deadline=START)
+    with rig.bridging('-p', f'holding_efforts:={HELD}'):
         yield rig
-    finally:
-        rig.close()
 
 
 def test_forces_become_efforts_in_the_order_of_the_joints(rig):

@@ -3,16 +3,13 @@
 """Measured against possible, live: ~/margin, and the warning on /diagnostics."""
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from geometry_msgs.msg import PoseArray, WrenchStamped
+from felt_contacts import felt_contacts, NAMES
 from grasp_quality_msgs.msg import GraspMargin, ResultCode
-from grasps import ANTIPODAL, numbers, pose_array, SOLVER, wrench
-from harness import BEST_EFFORT
+from grasps import numbers, SOLVER, wrench
 import pytest
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
-from std_msgs.msg import Header
 
-NAMES = ('left', 'right')
 # frames of ANTIPODAL have +z inward; left and right both push the object along +y by 2 N
 EVEN = {'left': wrench(fy=2.0, fz=5.0), 'right': wrench(fy=2.0, fz=5.0)}
 
@@ -25,19 +22,7 @@ def client(start):
 @pytest.fixture(scope='module')
 def feed(client):
     """Return a function that makes a feed of the two poses and of wrenches by name."""
-    poses = client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
-    sensors = {name: client.publisher(WrenchStamped, f'contact_wrenches/{name}', BEST_EFFORT)
-               for name in NAMES}
-
-    def make(**measured):
-        def publish():
-            stamp = client.now()
-            for name, value in measured.items():
-                sensors[name].publish(WrenchStamped(
-                    header=Header(frame_id=name, stamp=stamp), wrench=value))
-            poses.publish(pose_array(ANTIPODAL, stamp))
-        return publish
-    return make
+    return felt_contacts(client)
 
 
 @pytest.fixture(scope='module')

@@ -5,18 +5,17 @@
 from types import SimpleNamespace
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from geometry_msgs.msg import PoseArray, WrenchStamped
+from felt_contacts import felt_contacts
+from geometry_msgs.msg import PoseArray
 from grasp_quality_msgs import srv
 from grasp_quality_msgs.msg import ContactArray, ContactForceArray
-from grasps import ANTIPODAL, contact_array, pose_array, SOLVER, wrench
+from grasps import ANTIPODAL, contact_array, SOLVER, wrench
 from harness import BEST_EFFORT
 from outputs import Outputs
 import pytest
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
-from std_msgs.msg import Header
 
-NAMES = ('left', 'right')
 PUSH = wrench(fz=5.0)
 ALONG_Y = '[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]'
 
@@ -26,19 +25,7 @@ def fingers(start):
     """Return a client, a feed of poses and of wrenches by name, and a wait for a report."""
     client = start(contact_names='[left, right]', max_contact_age='0.5', min_contact_force='0.5',
                    task_wrench=ALONG_Y).client
-    poses = client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
-    sensors = {name: client.publisher(WrenchStamped, f'contact_wrenches/{name}', BEST_EFFORT)
-               for name in NAMES}
-
-    def make(**measured):
-        def publish():
-            stamp = client.now()
-            for name, value in measured.items():
-                sensors[name].publish(WrenchStamped(
-                    header=Header(frame_id=name, stamp=stamp), wrench=value))
-            poses.publish(pose_array(ANTIPODAL, stamp))
-        return publish
-    return SimpleNamespace(client=client, make=make, report=reports(client))
+    return SimpleNamespace(client=client, make=felt_contacts(client), report=reports(client))
 
 
 def reports(client):
