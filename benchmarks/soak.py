@@ -107,14 +107,14 @@ class Soak:
 
 def memory(soak):
     """
-    Return it when it was settled, after every minute, at the end: medians of 5 s [MB].
+    Return it when it was settled, after every minute, at the end: medians of 5 samples [MB].
 
     Rows are these times, columns the kinds of ``resident_mb`` and their sum.
     """
     times = np.array([seconds for seconds, _ in soak.resident])
     sizes = np.array([[*size, size.sum()] for _, size in soak.resident])
     minutes = np.arange(SETTLED_S, times[-1] - 30.0, 60.0)
-    return np.array([np.median(sizes[(times > end - 5.0) & (times <= end)], axis=0)
+    return np.array([np.median(sizes[times <= end][-5:], axis=0)
                      for end in (soak.settled, *minutes, times[-1])])
 
 

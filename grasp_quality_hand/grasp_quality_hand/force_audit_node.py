@@ -36,8 +36,9 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import Float64
 
-INPUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
-OUTPUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
+DEPTH = 1000
+INPUT = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
+OUTPUT = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.RELIABLE)
 JUDGE_PERIOD_S = 0.2
 REPORT_PERIOD_S = 1.0
 ANSWER_S = 5.0  # after which an answer about parameters will not come
@@ -137,8 +138,9 @@ class ForceAuditNode(Node):
     def _judge(self) -> None:
         self._ask()
         for take in (*self._takes, self._takes[0]):  # changes of parameters before and after
-            while take():
-                pass
+            for _ in range(DEPTH):  # a busy machine may fill them faster than they are read
+                if not take():
+                    break
         # the node works them out for listeners only: listen where somebody else does
         if not self._holding and self.count_subscribers(f'{self.target}/holding_forces'):
             self._holding = True

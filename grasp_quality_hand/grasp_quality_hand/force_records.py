@@ -9,7 +9,9 @@ pass with one combination of contacts and quality of its own stamp and parameter
 which it was sent: on a busy machine it may be read long after they were replaced.
 What cannot be judged because a part never came (best effort topics may lose one) is counted apart,
 and judged by what must hold whatever that part was.
-So is an objection that rests on a quality not seen, near (``GRACE_S``) qualities known to be lost.
+So is an objection that rests on a quality not seen, near (``GRACE_S``) qualities known to be lost,
+or with none heard that was sent later: what is lost on the way is sent again, and holds up those
+behind it. For a later one a part waits ``LATE_S``.
 """
 
 from collections import Counter, deque
@@ -19,6 +21,7 @@ from typing import TypeVar
 
 from grasp_quality_hand.audit_parts import (
     Contacts, Forces, joints_of, limits_alone, limits_of, LocalWrench, Quality, Settings)
+from grasp_quality_hand.audit_sequence import Gaps
 from grasp_quality_hand.force_rules import (
     broken_alone, broken_balance, broken_forces, broken_joints, SMALL)
 import numpy as np
@@ -28,7 +31,8 @@ STAMPED = (Contacts, Forces, LocalWrench, Quality)
 
 GRACE_S = 1.0    # after which all that belongs to a message has come
 PATIENCE_S = 20.0  # for the first parameters
-MEMORY_S = 4.0   # parts older than this are forgotten
+LATE_S = 5.0     # after which a quality that was lost on the way has been sent again
+MEMORY_S = 8.0   # parts older than this are forgotten
 SETTINGS_MEMORY_S = 60.0  # and parameters that were replaced so long ago
 MOST_TRIED = 200  # combinations of parts of one stamp
 OWN_CAPS = 1e3  # largest cap of a contact's own over the node's, or over any force beside it
@@ -55,7 +59,7 @@ class ForceRecords:
         self._kept: dict[type, deque[tuple[float, object]]] = {}
         self._stamped: dict[tuple[type, int], list[object]] = {}  # the same by kind and stamp
         self._alphas: Counter[float] = Counter()  # of the OPTIMAL qualities among them
-        self._lost: deque[tuple[float, float]] = deque()  # times between which qualities were
+        self._qualities = Gaps()
         self._waiting: deque[tuple[float, float, object]] = deque()  # came, sent, what
         self.count = Count()
 
@@ -81,8 +85,8 @@ class ForceRecords:
             self._stamped.setdefault((type(part), part.stamp), []).append(part)
         if isinstance(part, Quality) and part.optimal:
             self._alphas[part.alpha] += 1
-        if isinstance(part, Quality) and lost_since_s is not None:
-            self._lost.append((lost_since_s, sent_s))
+        if isinstance(part, Quality):
+            self._qualities.note(sent_s, lost_since_s)
         if len(kept) > MOST:
             self._forget(kept)
         self._patience_s = min(self._patience_s, now_s + PATIENCE_S)
@@ -94,16 +98,19 @@ class ForceRecords:
         said: list[str] = []
         if not self._kept.get(Settings) and now_s < self._patience_s:
             return said
-        while self._waiting and self._waiting[0][0] <= now_s - GRACE_S:
+        while self._waiting and self._is_due(now_s, *self._waiting[0][:2]):
             said += self._judge(*self._waiting.popleft())
         for kind, kept in self._kept.items():
             ended, memory = (1, SETTINGS_MEMORY_S) if kind is Settings else (0, MEMORY_S)
             while len(kept) > 1 and kept[ended][0] < now_s - memory:  # the newest holds on
                 self._forget(kept)
-        while self._lost and self._lost[0][1] < now_s - SETTINGS_MEMORY_S:
-            self._lost.popleft()
+        self._qualities.forget(now_s - SETTINGS_MEMORY_S)
         self.count.violations += len(said)
         return said
+
+    def _is_due(self, now_s: float, arrived_s: float, sent_s: float) -> bool:
+        grace_s = GRACE_S if self._qualities.heard_after(sent_s) else LATE_S
+        return arrived_s <= now_s - grace_s
 
     def _forget(self, kept: deque[tuple[float, object]]) -> None:
         _, part = kept.popleft()
@@ -125,10 +132,10 @@ class ForceRecords:
         elif isinstance(part, float):
             if part == 0.0 or part in self._alphas:
                 return []
-            if self._may_be_lost(sent_s) or not any(
+            if self._qualities.may_come(sent_s, GRACE_S) or not any(
                     abs(since_s - arrived_s) <= GRACE_S
                     for since_s, _ in self._kept.get(Quality, ())):
-                return self._leave('quality')  # not listening to it yet, or lost
+                return self._leave('quality')  # not listening to it yet, or on its way, or lost
             return [f'alpha {part:.9g} stands in no OPTIMAL quality']
         elif isinstance(part, Forces):
             return self._judge_forces(sent_s, part) if part.forces else []
@@ -148,11 +155,6 @@ class ForceRecords:
         return list({settings: None for end_s, settings in zip(ends, self._parts(Settings))
                      if end_s >= sent_s - 2 * GRACE_S})
 
-    def _may_be_lost(self, sent_s: float) -> bool:
-        """Tell whether qualities sent about then are known not to have come."""
-        return any(since_s <= sent_s + GRACE_S and sent_s - GRACE_S <= until_s
-                   for since_s, until_s in self._lost)
-
     def _judge_forces(self, sent_s: float, part: Forces) -> list[str]:
         settings = self._settings(sent_s)
         contacts = list({  # a frozen sensor says the same again and again
@@ -163,7 +165,7 @@ class ForceRecords:
         if not all(np.isfinite(force.wrench).all() for force in part.forces):
             return [f'forces of stamp {part.stamp} are not finite']
         if qualities and not any(quality.optimal for quality in qualities) \
-                and not self._may_be_lost(sent_s):
+                and not self._qualities.may_come(sent_s, GRACE_S):
             return [f'forces of stamp {part.stamp}: the quality beside them is not OPTIMAL']
         for name, found in (('parameters', settings), ('contacts', contacts),
                             ('quality', qualities), ('transform', in_frame)):
@@ -182,7 +184,7 @@ class ForceRecords:
                 break
         if best and next(tried, None):  # one stamp for everything, as when nothing is stamped
             return self._leave('stamp of its own')
-        if best and self._may_be_lost(sent_s) and not all(
+        if best and self._qualities.may_come(sent_s, GRACE_S) and not all(
                 _wrong(part, received, None, own, self._allowance_s)
                 for received, own in itertools.product(in_frame, settings)):
             return self._leave('quality')

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The audit does not judge by what it cannot know: lost qualities, parameters of long before."""
 
-from audit_cases import changed, CONTACTS, FORCES, QUALITY, RIGHT_FORCE, SETTINGS
+from audit_cases import changed, CONTACTS, FORCES, NEXT, QUALITY, RIGHT_FORCE, SETTINGS
 from grasp_quality_hand.audit_parts import Quality
-from grasp_quality_hand.force_records import ForceRecords, GRACE_S
+from grasp_quality_hand.force_records import ForceRecords, GRACE_S, LATE_S
 import numpy as np
 import pytest
+
+FAILURE = changed(QUALITY, optimal=False, alpha=0.0, others=(0.0,))
 
 
 def after_a_loss(*parts, lost_s=1.0):
@@ -15,17 +17,44 @@ def after_a_loss(*parts, lost_s=1.0):
     records.store(SETTINGS, 0.0)
     for part in parts:
         records.store(part, 1.0, 1.0, lost_s if isinstance(part, Quality) else None)
+    records.store(NEXT, 1.2)
     return records.judge(3.0 * GRACE_S), records.count
 
 
 @pytest.mark.parametrize('parts', [
     (QUALITY, 4.0), (CONTACTS, changed(QUALITY, alpha=2.9), FORCES),
-    (CONTACTS, changed(QUALITY, optimal=False, alpha=0.0, others=(0.0,)), FORCES)])
+    (CONTACTS, FAILURE, FORCES)])
 def test_where_a_quality_is_known_to_be_lost_it_may_be_the_one_that_fits(parts):
     said, count = after_a_loss(*parts)
     assert said == [] and count.unjudged == {'quality': 1} and count.judged == 0
     said, _ = after_a_loss(*parts, lost_s=None)
     assert len(said) == 1
+
+
+@pytest.mark.parametrize('parts, late', [
+    ([QUALITY, 4.0], changed(QUALITY, alpha=4.0)),
+    ([CONTACTS, FAILURE, FORCES], QUALITY), ([CONTACTS, changed(QUALITY, alpha=2.9), FORCES], QUALITY)])
+def test_a_quality_that_is_lost_on_the_way_may_come_late(parts, late):
+    """It holds up those behind it, so that no number tells yet that something is missing."""
+    for came, wrong in ((True, 0), (False, 1)):
+        records = ForceRecords()
+        records.store(SETTINGS, 0.0)
+        for part in parts:
+            records.store(part, 1.0)
+        assert records.judge(0.9 * LATE_S) == []
+        if came:
+            records.store(late, 0.9 * LATE_S, 1.0)
+        records.store(NEXT, 0.9 * LATE_S, 1.2)
+        assert len(records.judge(LATE_S)) == wrong
+
+
+@pytest.mark.parametrize('parts', [
+    [QUALITY, 4.0], [CONTACTS, FAILURE, FORCES], [CONTACTS, changed(QUALITY, alpha=2.9), FORCES]])
+def test_where_no_later_quality_comes_nothing_is_certain(parts):
+    records = ForceRecords()
+    for part in (SETTINGS, *parts):
+        records.store(part, 1.0)
+    assert records.judge(2.0 * LATE_S) == [] and records.count.unjudged == {'quality': 1}
 
 
 @pytest.mark.parametrize('part, words', [
@@ -44,6 +73,7 @@ def test_forces_of_before_the_first_known_parameters_are_not_judged_by_these(sen
     records = ForceRecords()
     for part in (CONTACTS, QUALITY, FORCES):
         records.store(part, sent_s)
+    records.store(NEXT, sent_s + 0.2)
     records.store(changed(SETTINGS, friction_coefficient=0.1), 1.0)  # they lay outside its cones
     said = records.judge(sent_s + 2.0 * GRACE_S)
     assert bool(said) == bool(wrong)
@@ -56,4 +86,5 @@ def test_a_loss_of_long_before_excuses_nothing():
     records.store(QUALITY, 1.0, 1.0, 0.9)
     for part in (QUALITY, 4.0):
         records.store(part, 3.0)
+    records.store(NEXT, 3.2)
     assert records.judge(3.0 + 2.0 * GRACE_S) == ['alpha 4 stands in no OPTIMAL quality']

@@ -5,9 +5,10 @@
 import itertools
 
 from audit_cases import (
-    changed, CONTACTS, FORCES, LEFT_FORCE, LOCAL, QUALITY, RIGHT_FORCE, SETTINGS)
+    changed, CONTACTS, FORCES, LEFT_FORCE, LOCAL, NEXT, QUALITY, RIGHT_FORCE, SETTINGS)
 from grasp_quality_hand.audit_parts import limits_of, ReceivedJoint
-from grasp_quality_hand.force_records import ForceRecords, GRACE_S, PATIENCE_S
+from grasp_quality_hand.force_records import (
+    ForceRecords, GRACE_S, LATE_S, MEMORY_S, PATIENCE_S)
 import numpy as np
 import pytest
 
@@ -20,6 +21,7 @@ def judged(*parts, **options):
     records = ForceRecords(**options)
     for i, part in enumerate(parts):
         records.store(part, 1e-3 * i)
+    records.store(NEXT, 1.1 * GRACE_S)
     return records.judge(2.0 * GRACE_S) + records.judge(2.0 * PATIENCE_S), records.count
 
 
@@ -29,11 +31,15 @@ def test_the_order_of_arrival_does_not_matter(parts):
     assert said == [] and count.judged == 1 and not count.unjudged
 
 
-def test_nothing_is_judged_before_its_grace_is_over():
+@pytest.mark.parametrize('more, grace_s', [([], LATE_S), ([NEXT], GRACE_S)])
+def test_nothing_is_judged_before_its_grace_is_over(more, grace_s):
     records = ForceRecords()
     for part in ALL:
         records.store(part, 0.0)
-    assert records.judge(0.9 * GRACE_S) == [] and records.count.judged == 0
+    for part in more:
+        records.store(part, 0.2)
+    assert records.judge(0.9 * grace_s) == [] and records.count.judged == 0
+    assert records.judge(1.1 * grace_s) == [] and records.count.judged == 1
 
 
 @pytest.mark.parametrize('missing', [SETTINGS, CONTACTS, QUALITY])
@@ -120,6 +126,7 @@ def test_parameters_of_long_before_excuse_nothing():
     records.store(changed(SETTINGS, friction_coefficient=0.1), 10.0)
     for part in (CONTACTS, QUALITY, FORCES):
         records.store(part, 13.0)
+    records.store(NEXT, 13.2)
     assert records.judge(15.0)
 
 
@@ -135,7 +142,7 @@ def test_memory_is_bounded_by_time():
             stamped = changed(part, stamp=i) if hasattr(part, 'stamp') else part
             records.store(stamped, 0.01 * i)
         records.judge(0.01 * i)
-    assert max(len(kept) for kept in records._kept.values()) < 500
+    assert max(len(kept) for kept in records._kept.values()) < 100 * (MEMORY_S + 1.0)
     assert records.count.violations == 0 and records.count.judged > 2_800
 
 
