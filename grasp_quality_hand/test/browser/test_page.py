@@ -15,6 +15,7 @@ from page import LEFT, Page, RIGHT, until
 import pytest
 
 RADIUS = 0.03  # of the grasp [m]
+PUSHES = 30    # of a slider, one degree each; every one is an answer and a picture
 
 
 @pytest.fixture(scope='module')
@@ -45,10 +46,10 @@ def page(browser, stage, hand):
     return shown
 
 
-def ask(stage, force):
+def ask(stage, direction):
     """Return alpha of a force, by the service."""
     answer = stage.client.call(srv.EvaluateTaskWrench, 'evaluate_task_wrench',
-                               task_wrench=wrench(*map(float, force)))
+                               task_wrench=wrench(*map(float, direction)))
     assert answer.result.code == ResultCode.OPTIMAL
     return answer.alpha
 
@@ -74,22 +75,29 @@ def test_the_scene_is_not_blank(page):
     until(coloured, 'a scene with colours')
 
 
+def force(elevation, azimuth):
+    """Return the unit force in a direction [degrees]."""
+    e, a = np.radians([elevation, azimuth])
+    return np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)
+
+
 def test_moving_the_slider_changes_alpha_as_the_service_says(page, stage):
     before = page.alpha()
-    page.push('elevation', LEFT, 60)  # one degree each, from +z down to 30 degrees
-    wanted = ask(stage, (np.cos(np.radians(30)), 0.0, np.sin(np.radians(30))))
+    page.push('elevation', LEFT, PUSHES)  # from +z down
+    wanted = ask(stage, force(90 - PUSHES, 0))
     assert abs(wanted - before) > 1.0
     until(lambda: page.alpha() == pytest.approx(wanted, abs=2e-3), f'alpha {wanted}')
     until(lambda: 'task set' in page.text('gq-reply'), 'the reply')
-    page.push('azimuth', RIGHT, 180)
-    wanted = ask(stage, (-np.cos(np.radians(30)), 0.0, np.sin(np.radians(30))))
+    page.push('azimuth', RIGHT, PUSHES)
+    before, wanted = wanted, ask(stage, force(90 - PUSHES, PUSHES))
+    assert abs(wanted - before) > 0.01
     until(lambda: page.alpha() == pytest.approx(wanted, abs=2e-3), f'alpha {wanted}')
 
 
 def test_the_friction_slider_sets_the_friction_of_the_node(page, stage):
     page.push('friction', RIGHT, 10)
     until(lambda: 'friction set' in page.text('gq-reply'), 'the reply')
-    wanted = ask(stage, (-np.cos(np.radians(30)), 0.0, np.sin(np.radians(30))))
+    wanted = ask(stage, force(90 - PUSHES, PUSHES))
     until(lambda: page.alpha() == pytest.approx(wanted, abs=2e-3), f'alpha {wanted}')
 
 
