@@ -136,6 +136,7 @@ class ForceAuditNode(Node):
         return dataclasses.replace(self._read_forces(message, sent_ns), are_holding=True)
 
     def _judge(self) -> None:
+        now_s = time.monotonic()  # what came before is read below, however long that takes
         self._ask()
         for take in (*self._takes, self._takes[0]):  # changes of parameters before and after
             for _ in range(DEPTH):  # a busy machine may fill them faster than they are read
@@ -147,7 +148,7 @@ class ForceAuditNode(Node):
             self._listen(ContactForceArray, 'holding_forces', OUTPUT, self._read_holding)
         self._most_publishers = max(
             self._most_publishers, self.count_publishers(f'{self.target}/contact_forces'))
-        for text in self.records.judge(time.monotonic()):
+        for text in self.records.judge(now_s):
             self._tell(text)
 
     def _tell(self, text: str) -> None:

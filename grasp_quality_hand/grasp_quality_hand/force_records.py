@@ -10,8 +10,8 @@ which it was sent: on a busy machine it may be read long after they were replace
 What cannot be judged because a part never came (best effort topics may lose one) is counted apart,
 and judged by what must hold whatever that part was.
 So is an objection that rests on a quality not seen, near (``GRACE_S``) qualities known to be lost,
-or with none heard that was sent later: what is lost on the way is sent again, and holds up those
-behind it. For a later one a part waits ``LATE_S``.
+or with none heard that was sent later: it may be on its way, or not read yet. For a later one a part
+waits ``LATE_S``.
 """
 
 from collections import Counter, deque
@@ -31,7 +31,7 @@ STAMPED = (Contacts, Forces, LocalWrench, Quality)
 
 GRACE_S = 1.0    # after which all that belongs to a message has come
 PATIENCE_S = 20.0  # for the first parameters
-LATE_S = 5.0     # after which a quality that was lost on the way has been sent again
+LATE_S = 5.0     # after which no later quality will come
 MEMORY_S = 8.0   # parts older than this are forgotten
 SETTINGS_MEMORY_S = 60.0  # and parameters that were replaced so long ago
 MOST_TRIED = 200  # combinations of parts of one stamp
