@@ -56,6 +56,9 @@ def test_contacts_like_those_before_are_those_read_anew(place):
         assert mine.max_normal_force == other.max_normal_force
         np.testing.assert_array_equal(mine.position, other.position)
         np.testing.assert_array_equal(mine.rotation, other.rotation)
+    now.poses[1].position.y = float('nan')
+    with pytest.raises(InvalidMessageError, match=r'^poses\[1\].position must be'):
+        contacts_from_poses(now, DEFAULTS, place, like)
     now.poses[1].position.y = 2e4
     with pytest.raises(InvalidMessageError, match='contact 1 .* must lie within'):
         contacts_from_poses(now, DEFAULTS, place, like)

@@ -54,6 +54,12 @@ def test_no_force_is_no_usage_whatever_counts_as_idle():
     assert friction_cone.usage_of_shares(nothing, unloaded=0.0).tolist() == [0.0] * 4
 
 
+@pytest.mark.filterwarnings('error')
+def test_usage_beside_a_denormal_normal_force_is_infinite_and_quiet():
+    loaded = forces(t1=0.3, n=5e-324)
+    assert friction_cone.usage(loaded, SCALES, CAPS).tolist() == [np.inf] * 4
+
+
 def test_usage_of_shares_is_usage():
     rng = np.random.default_rng(0)
     caps = rng.uniform(0.5, 2.0, 4)
