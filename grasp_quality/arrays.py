@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import SupportsFloat, TypeVar
+from typing import Any, SupportsFloat, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,7 @@ Codes = NDArray[np.int8]
 # of any force, torque, coefficient: products of three of them are still numbers
 SMALLEST, LARGEST = 1e-50, 1e50
 NO_LENGTH = 1e-12  # [m], below an atom: torques over it would be numbers without end
+PLAIN = {float, int}  # in lists of them nothing hides
 ANY = float(np.finfo(float).max)
 
 
@@ -42,13 +43,11 @@ def checked(value: ArrayLike, shape: tuple[int | None, ...], name: str,
     Raises
     ------
     error
-        When the value is not numeric, has another shape, or is not finite or too large.
+        When the value is not numeric, complex, masked, has another shape, or is not finite or
+        too large.
 
     """
-    try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError) as exc:
-        raise error(f'{name} must be an array of {_words(shape)} numbers, got {value!r}') from exc
+    array = floats(value, name, f'an array of {_words(shape)} numbers', error)
     fits = array.ndim == len(shape) and all(
         want is None or want == have for want, have in zip(shape, array.shape))
     if not fits:
@@ -58,6 +57,64 @@ def checked(value: ArrayLike, shape: tuple[int | None, ...], name: str,
             f'{name} must be finite and at most {largest:g} in size, got {array.tolist()}')
     array.flags.writeable = False
     return array
+
+
+def floats(value: object, name: str, kind: str, error: type[ValueError]) -> Array:
+    """
+    Copy numbers into a float64 array, of which numpy alone would drop imaginary parts and masks.
+
+    Parameters
+    ----------
+    value : array_like or number
+        What the caller gave; it is left as it is.
+    name : str
+        What the value is called in the error message.
+    kind : str
+        What it must be, in words.
+    error : type
+        Exception class, a ValueError.
+
+    Raises
+    ------
+    error
+        When the value is not numeric, has an imaginary part that is not zero, or masked entries.
+
+    """
+    masked = _masked_part(value)
+    if masked is not None:
+        count = int(np.ma.getmaskarray(masked).sum())
+        raise error(f'{name} must have no masked entries, got {count} of {masked.size}: '
+                    'give numbers for all (.filled), or leave them out')
+    try:
+        array = np.array(value)
+        if array.dtype.kind == 'O':
+            array = np.array([complex(x) for x in array.flat]).reshape(array.shape)
+        if array.dtype.kind != 'c':
+            return array.astype(np.float64, copy=False)
+    except (TypeError, ValueError, OverflowError) as exc:
+        raise error(f'{name} must be {kind}, got {value!r}') from exc
+    if array.imag.any():  # nan is one too
+        entry = array[array.imag != 0.0][0]
+        raise error(f'{name} must be real, got {entry}: give the real part of it (.real) if that '
+                    'is what is meant')
+    return array.real.astype(np.float64)
+
+
+def _single(value: SupportsFloat, name: str, error: type[ValueError]) -> float:
+    """Return the one number of a value that is no plain one, such as numpy's."""
+    array = floats(value, name, 'a number', error)
+    if array.ndim:
+        raise error(f'{name} must be a number, got {value!r}')
+    return float(array)
+
+
+def _masked_part(value: object) -> np.ma.MaskedArray[Any, Any] | None:
+    """Return the first masked array with masked entries in nested lists; None if there is none."""
+    if isinstance(value, np.ma.MaskedArray):
+        return value if np.ma.is_masked(value) else None
+    if isinstance(value, (list, tuple)) and not PLAIN.issuperset(map(type, value)):
+        return next((part for part in map(_masked_part, value) if part is not None), None)
+    return None
 
 
 def checked_number(value: SupportsFloat, name: str, error: type[ValueError],
@@ -70,8 +127,8 @@ def checked_number(value: SupportsFloat, name: str, error: type[ValueError],
 
     """
     try:
-        number = float(value)
-    except (TypeError, ValueError, OverflowError) as exc:
+        number = float(value) if isinstance(value, (float, int)) else _single(value, name, error)
+    except OverflowError as exc:
         raise error(f'{name} must be a number, got {value!r}') from exc
     if not abs(number) <= LARGEST:  # nan is not either
         raise error(f'{name} must be finite and at most {LARGEST:g} in size, got {number}')

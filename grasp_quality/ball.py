@@ -122,7 +122,7 @@ def ball_radius(grasp: Grasp, torque_length: float = 1.0, subspace: str = 'all',
     """
     require_grasp(grasp)
     length = checked_number(torque_length, 'torque_length [m]', InvalidTaskError, above=0.0)
-    if subspace not in SUBSPACES:
+    if subspace not in tuple(SUBSPACES):
         raise InvalidTaskError(f'subspace must be one of {list(SUBSPACES)}, got {subspace!r}')
     axes = np.diag([1.0, 1.0, 1.0, length, length, length])[SUBSPACES[subspace]]
     return ellipsoid_scale(grasp, TaskEllipsoid(axes), relative_width, time_limit_s)

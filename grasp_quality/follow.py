@@ -14,14 +14,16 @@ admissible forces are what comes out: safety before smoothness, and it is told.
 import dataclasses
 from dataclasses import dataclass
 
-from grasp_quality.exceptions import SolverError
+from grasp_quality.arguments import require_made
+from grasp_quality.arrays import checked, checked_number
+from grasp_quality.exceptions import InvalidTaskError, SolverError
 from grasp_quality.nearest import distances, nearest_forces, proved
 from grasp_quality.problem import ConicProblem
 from grasp_quality.reserve import with_forces
 from grasp_quality.solution import Solution
-from grasp_quality.time_limit import TimeLimit
+from grasp_quality.time_limit import Limit, TimeLimit
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 # shares of the way to the goal that lift a solver's rounding off the cones' edges, in turn
@@ -50,8 +52,8 @@ class Followed:
     largest_change: float
 
 
-def follow(problem: ConicProblem, goal: Solution, forces: Array, allowed_change: float,
-           time_limit: TimeLimit | None = None) -> Followed:
+def follow(problem: ConicProblem, goal: Solution, forces: ArrayLike, allowed_change: float,
+           time_limit: Limit = None) -> Followed:
     """
     Go from the forces commanded last towards those of an answer.
 
@@ -65,8 +67,8 @@ def follow(problem: ConicProblem, goal: Solution, forces: Array, allowed_change:
         Forces commanded last, [t1, t2, n, m_n] in the present contact frames.
     allowed_change : float [N]
         Largest change of any contact's force, a moment counted as m_n / gamma.
-    time_limit : TimeLimit, optional
-        Of the question that this is part of.
+    time_limit : TimeLimit or float, optional
+        Of the question that this is part of; a number counts from now [s].
 
     Returns
     -------
@@ -74,18 +76,26 @@ def follow(problem: ConicProblem, goal: Solution, forces: Array, allowed_change:
 
     Raises
     ------
-    SolverError, SolverTimeoutError
+    InvalidTaskError, SolverError, SolverTimeoutError
 
     """
-    grasp = problem.grasp
-    last, end = grasp.shares(forces), grasp.shares(goal.forces)
+    require_made(problem, ConicProblem, 'problem', 'build_problem(grasp, task)')
+    require_made(goal, Solution, 'goal', 'evaluate(grasp, task)')
+    grasp, limit = problem.grasp, TimeLimit.of(time_limit)
+    if len(goal.forces) != len(grasp):
+        raise InvalidTaskError(
+            f'goal must have forces for all {len(grasp)} contacts, got {len(goal.forces)} with '
+            f'status {goal.status.name}: give a feasible answer for the present contacts')
+    allowed = checked_number(allowed_change, 'allowed_change', InvalidTaskError, minimum=0.0)
+    last = grasp.shares(checked(forces, (len(grasp), 4), 'forces', InvalidTaskError))
+    end = grasp.shares(goal.forces)
     moved = float(distances(problem, end, last).max())
-    if moved <= allowed_change:
+    if moved <= allowed:
         return Followed(goal, False, moved)
-    near = nearest_forces(problem, last, time_limit)
+    near = nearest_forces(problem, last, limit)
     if near is None:
         raise SolverError('the goal is admissible and no forces are', problem, 'contradiction')
-    way = largest_share(problem, last, near.shares, end, allowed_change)
+    way = largest_share(problem, last, near.shares, end, allowed)
     applied = goal_values(problem, goal)
     for lift in LIFTS:
         s = max(way, lift)

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 from grasp_quality import bounds
 from grasp_quality.arguments import plain_grasps
-from grasp_quality.arrays import ANY, checked, frozen, SMALLEST
+from grasp_quality.arrays import ANY, checked, floats, frozen, SMALLEST
 from grasp_quality.contact import (
     ContactModel, FARTHEST, IDENTITY, model_of, ROTATION_TOLERANCE)
 from grasp_quality.contact_set import ContactSet
@@ -241,8 +241,9 @@ class GraspSet(Sequence):  # type: ignore[type-arg]
 
 
 def _spread(values: ArrayLike, M: int, k: int, name: str) -> Array:
+    array = floats(values, name, 'numbers', InvalidContactError)
     try:
-        return np.broadcast_to(np.asarray(values, dtype=np.float64), (M, k))
-    except (TypeError, ValueError) as exc:
+        return np.broadcast_to(array, (M, k))
+    except ValueError as exc:
         raise InvalidContactError(
             f'{name} must broadcast to ({M}, {k}) numbers, got {values!r}') from exc

@@ -9,7 +9,7 @@ tau = J^T f + tau_g = T x + tau_g (docs/derivations.md), and every motor obeys
 Jacobians and tau_g from gravity on its links; both hold for one posture of the hand.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -54,6 +54,8 @@ class JointLimits:
 
     def __post_init__(self) -> None:
         """Validate and copy."""
+        if not isinstance(self.names, Iterable):
+            raise InvalidGraspError(f'joint names must be several, got {self.names!r}: give a list')
         names = tuple(self.names)
         count = len(names)
         if not count or not all(isinstance(n, str) and n for n in names):
@@ -74,8 +76,9 @@ class JointLimits:
             object.__setattr__(self, field, value)
 
     @staticmethod
-    def of_jacobians(names: Sequence[str], max_torques: ArrayLike, jacobians: Array,
-                     rotations: Array, gravity_torques: ArrayLike | None = None) -> 'JointLimits':
+    def of_jacobians(names: Sequence[str], max_torques: ArrayLike, jacobians: ArrayLike,
+                     rotations: ArrayLike,
+                     gravity_torques: ArrayLike | None = None) -> 'JointLimits':
         """
         Make limits from Jacobians, in whatever axes they stand.
 
@@ -83,15 +86,17 @@ class JointLimits:
         ----------
         names, max_torques, gravity_torques
             As above.
-        jacobians : (j, k, 6) array [m/rad, rad/rad]
+        jacobians : (j, k, 6) array_like [m/rad, rad/rad]
             Twist [v, omega] of each contact point for a unit of each joint's velocity.
-        rotations : (k, 3, 3) array
+        rotations : (k, 3, 3) array_like
             Contact frames, in the axes of the twists.
 
         """
-        matrix = np.empty((*np.shape(jacobians)[:2], 4))
-        matrix[..., :3] = np.einsum('jkx,kxt->jkt', jacobians[..., :3], rotations)
-        matrix[..., 3] = np.einsum('jkx,kx->jk', jacobians[..., 3:], rotations[..., 2])
+        twists = checked(jacobians, (None, None, 6), 'jacobians', InvalidGraspError)
+        frames = checked(rotations, (twists.shape[1], 3, 3), 'rotations', InvalidGraspError)
+        matrix = np.empty((*twists.shape[:2], 4))
+        matrix[..., :3] = np.einsum('jkx,kxt->jkt', twists[..., :3], frames)
+        matrix[..., 3] = np.einsum('jkx,kx->jk', twists[..., 3:], frames[..., 2])
         return JointLimits(
             tuple(names), max_torques, matrix, gravity_torques)  # type: ignore[arg-type]
 

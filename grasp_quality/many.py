@@ -15,7 +15,7 @@ import enum
 from itertools import pairwise
 
 from grasp_quality import judge
-from grasp_quality.arrays import checked_number, frozen
+from grasp_quality.arrays import checked_number, floats, frozen
 from grasp_quality.barrier import with_margin
 from grasp_quality.batch import Answers, AT_ONCE, on_all_cores, solve_part
 from grasp_quality.exceptions import InvalidTaskError, SolverError, SolverTimeoutError
@@ -195,10 +195,7 @@ def _alone(grasp: Grasp, wrench: NDArray[np.float64], load: NDArray[np.float64],
 
 
 def _wrenches(value: ArrayLike, name: str) -> NDArray[np.float64]:
-    try:
-        wrenches = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError) as exc:
-        raise InvalidTaskError(f'{name} must be wrenches (..., 6), got {value!r}') from exc
+    wrenches = floats(value, name, 'wrenches (..., 6)', InvalidTaskError)
     if not wrenches.ndim or wrenches.shape[-1] != 6:
         raise InvalidTaskError(f'{name} must have shape (..., 6), got {wrenches.shape}')
     if not np.isfinite(wrenches).all():

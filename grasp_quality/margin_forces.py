@@ -11,7 +11,7 @@ smoothly with contacts and load.
 
 from dataclasses import dataclass
 
-from grasp_quality.arguments import require_grasp
+from grasp_quality.arguments import require_grasp, require_start
 from grasp_quality.arrays import checked_number, frozen
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.force_center import force_center, ForceCenter
@@ -100,6 +100,7 @@ def hold_forces(grasp: Grasp, external_wrench: ArrayLike | None = None,
 
     """
     require_grasp(grasp)
+    require_start(start, HoldForces, 'hold_forces')
     load = np.zeros(6) if external_wrench is None else as_wrench(
         external_wrench, 'external_wrench')
     multiple = checked_number(alpha, 'alpha', InvalidTaskError)

@@ -13,7 +13,7 @@ import dataclasses
 from typing import cast, overload
 
 from grasp_quality import friction_cone
-from grasp_quality.arguments import require_grasp
+from grasp_quality.arguments import require_grasp, require_start
 from grasp_quality.arrays import Array, checked, checked_number, frozen
 from grasp_quality.barrier import with_margin
 from grasp_quality.batch import solve_wrenches
@@ -90,6 +90,7 @@ def evaluate(grasp: Grasp, task: Task, external_wrench: ArrayLike | None = None,
 
     """
     require_grasp(grasp)
+    require_start(start, Solution, 'evaluate(..., alpha_reserve=d)')
     time_limit_s = TimeLimit.of(time_limit_s)
     eps = checked_number(barrier_weight, 'barrier_weight', InvalidTaskError, minimum=0.0)
     reserve = checked_number(

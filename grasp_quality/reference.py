@@ -22,6 +22,7 @@ from grasp_quality.arrays import Array
 from grasp_quality.contact import Contact
 from grasp_quality.grasp import Grasp
 from grasp_quality.task import TaskCone
+from grasp_quality.wrench import as_wrench
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -175,7 +176,7 @@ def _load(external_wrench: Numbers) -> Array | cp.Expression:
 
 
 def _numbers(wrench: Numbers) -> Array | cp.Expression:
-    return wrench if isinstance(wrench, cp.Expression) else np.asarray(wrench, dtype=np.float64)
+    return wrench if isinstance(wrench, cp.Expression) else as_wrench(wrench)
 
 
 def _parts(contact: Contact, x: cp.Expression) -> tuple[list[cp.Expression], list[cp.Expression]]:

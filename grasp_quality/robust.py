@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from grasp_quality.arguments import require_grasp
-from grasp_quality.arrays import checked_number, frozen
+from grasp_quality.arrays import checked_number, floats, frozen
 from grasp_quality.exceptions import InvalidTaskError, SolverError, SolverTimeoutError
 from grasp_quality.grasp import Grasp
 from grasp_quality.grasp_set import GraspSet
@@ -151,7 +151,8 @@ def _shaped(values: Array, quantile: float | Sequence[float]) -> float | Array:
 
 
 def _checked_levels(quantile: float | Sequence[float]) -> list[float]:
-    levels = np.atleast_1d(np.asarray(quantile, dtype=object)).tolist()
+    levels = np.atleast_1d(
+        floats(quantile, 'quantile', 'a number', InvalidTaskError)).tolist()
     if not levels:
         raise InvalidTaskError('quantile must be a number or several, got none')
     return [checked_number(level, 'quantile', InvalidTaskError, above=0.0, below=1.0)

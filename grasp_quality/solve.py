@@ -15,6 +15,7 @@ import dataclasses
 from typing import TypeVar
 
 from grasp_quality import clarabel_solver, friction_cone, kernel_solver
+from grasp_quality.arguments import require_made
 from grasp_quality.arrays import Array, frozen
 from grasp_quality.bounds import gauge
 from grasp_quality.exceptions import SolverError
@@ -135,9 +136,10 @@ def solve(problem: ConicProblem, time_limit_s: Limit = None) -> Solution:
 
     Raises
     ------
-    SolverError, SolverTimeoutError
+    InvalidTaskError, SolverError, SolverTimeoutError
 
     """
+    require_made(problem, ConicProblem, 'problem', 'build_problem(grasp, task)')
     time_limit_s = TimeLimit.of(time_limit_s)
     grasp, virtual = problem.grasp, problem.virtual
     kind = ConeSolution if virtual.is_cone else Solution

@@ -14,7 +14,7 @@ draws, and more samples begin with the fewer.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from grasp_quality.arrays import LARGEST
+from grasp_quality.arrays import floats, LARGEST
 from grasp_quality.contact import FARTHEST
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp
@@ -72,11 +72,7 @@ class Uncertainty:
 
 
 def _deviations(value: ArrayLike, name: str, length: int, largest: float) -> Array:
-    try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError) as exc:
-        raise InvalidTaskError(
-            f'{name} must be a number or {length} numbers, got {value!r}') from exc
+    array = floats(value, name, f'a number or {length} numbers', InvalidTaskError)
     if array.shape not in ((), (length,)):
         raise InvalidTaskError(
             f'{name} must be a number or {length} numbers, got shape {array.shape}: {value!r}')

@@ -87,7 +87,7 @@ def volume(grasp: Grasp, subspace: str = 'force', relative_width: float = WIDTH,
     require_grasp(grasp)
     width = checked_number(
         relative_width, 'relative_width', InvalidTaskError, above=0.0, below=1.0)
-    if subspace not in SUBSPACES:
+    if subspace not in tuple(SUBSPACES):
         raise InvalidTaskError(f'subspace must be one of {list(SUBSPACES)}, got {subspace!r}')
     refuse_limits(grasp.joint_limits, 'the volume')
     rows = SUBSPACES[subspace]
