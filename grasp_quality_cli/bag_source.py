@@ -19,6 +19,7 @@ from grasp_quality import GraspQualityError
 from grasp_quality_cli.bag_record import BagError, Part, Record, Wanted
 from grasp_quality_cli.mcap_scan import McapScan
 from grasp_quality_cli.sqlite_scan import missing_bytes, SqliteScan
+from grasp_quality_cli.yaml_source import read_text
 from rosbags.rosbag2 import Reader
 from ruamel.yaml import YAML
 
@@ -86,12 +87,16 @@ class BagSource:
             if self.path.suffix not in SCANS:
                 raise NoBagError(
                     f'{self.path}: must be a .mcap or .db3 file, or the folder of a rosbag2')
+            if not self.path.is_file():
+                raise NoBagError(f'{self.path}: must be a regular file, not a pipe or a device: '
+                                 'write what comes out of it to one first')
             return [self.path]
         files, compressed = self._files_of_metadata()
         if compressed:
             return [self.path]
         files = files or sorted(
-            (file for file in self.path.iterdir() if file.suffix in SCANS), key=_by_number)
+            (file for file in self.path.iterdir() if file.suffix in SCANS and file.is_file()),
+            key=_by_number)
         if not files:
             raise NoBagError(f'{self.path}: holds neither .mcap nor .db3 files')
         return files
@@ -101,7 +106,7 @@ class BagSource:
         file = self.path / 'metadata.yaml'
         try:
             facts = cast('dict[str, dict[str, object]]', YAML(typ='safe').load(
-                file.read_text()))['rosbag2_bagfile_information']
+                read_text(file)))['rosbag2_bagfile_information']
             names = [Path(str(name)).name for name in cast('list[str]',
                                                            facts['relative_file_paths'])]
         except Exception as exc:  # missing, half written, not YAML: the files are there
@@ -110,9 +115,9 @@ class BagSource:
             return [], False
         if str(facts.get('compression_mode') or 'none').lower() in ('file', 'message'):
             return [], True
-        there = [self.path / name for name in names if (self.path / name).exists()]
+        there = [self.path / name for name in names if (self.path / name).is_file()]
         self.damage += [f'{self.path / name}: is missing' for name in names
-                        if not (self.path / name).exists()]
+                        if not (self.path / name).is_file()]
         return there, False
 
     def _part(self, path: Path) -> Part:

@@ -13,7 +13,7 @@ import json
 import math
 from typing import Any
 
-from grasp_quality_cli.source_item import FileError, SourceItem, WHOLE
+from grasp_quality_cli.source_item import FileError, ROW, SourceItem
 
 SHOWN = 60  # characters of a wrong value
 
@@ -98,7 +98,7 @@ def parse_line(file: str, row: int, line: bytes) -> JsonItem:
         raise FileError(f'{file}:{row}: is not JSON: it is nested too deeply') from exc
     except ValueError as exc:  # JSONDecodeError and UnicodeDecodeError too
         raise FileError(f'{file}:{row}: is not JSON: {exc}') from exc
-    return JsonItem(file, WHOLE, row, value)
+    return JsonItem(file, ROW, row, value)
 
 
 def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

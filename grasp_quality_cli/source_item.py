@@ -17,7 +17,7 @@ from grasp_quality.exceptions import GraspQualityError
 import numpy as np
 from numpy.typing import NDArray
 
-WHOLE = 'file'  # name of the outermost value
+WHOLE, ROW = 'file', 'row'  # name of the outermost value
 
 
 class FileError(GraspQualityError, ValueError):
@@ -75,7 +75,7 @@ class SourceItem(ABC):
 
     def below(self, key: str) -> str:
         """Name of a field of this value."""
-        return key if self.name == WHOLE else f'{self.name}.{key}'
+        return key if self.name in (WHOLE, ROW) else f'{self.name}.{key}'
 
     def fields(self, allowed: Sequence[str], required: Sequence[str] = ()
                ) -> dict[str, SourceItem]:

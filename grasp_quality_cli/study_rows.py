@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from grasp_quality_cli.json_source import JsonItem, parse_line
-from grasp_quality_cli.source_item import FileError, SourceItem, WHOLE
+from grasp_quality_cli.source_item import FileError, ROW, SourceItem
 import pyarrow as pa
 import pyarrow.parquet as pq
 
@@ -59,7 +59,7 @@ class Chunk:
                     yield row, _item_of_line(file, row, line)
             return
         for row, value in enumerate(self.rows.to_pylist(), self.first_row):
-            yield row, JsonItem(file, WHOLE, row, value)
+            yield row, JsonItem(file, ROW, row, value)
 
 
 def _item_of_line(file: str, row: int, line: bytes) -> SourceItem | FileError:
@@ -104,6 +104,9 @@ class Dataset:
                             'Parquet, see docs/study.md')
         try:
             size = path.stat().st_size
+            if not path.is_file():
+                raise FileError(f'{path}: must be a regular file, as a study that was ended reads '
+                                'it again: write what comes out of a pipe or device to one first')
             return cls(path, pq.read_metadata(path).num_rows if cls._is_table(path) else size)
         except OSError as exc:
             raise FileError(f'{path}: cannot be read: {exc.strerror or exc}') from exc

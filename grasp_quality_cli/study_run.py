@@ -14,6 +14,7 @@ from pathlib import Path
 import time
 from typing import Any
 
+from grasp_quality_cli.grasp_file import read_task
 from grasp_quality_cli.study_error import StoppedError
 from grasp_quality_cli.study_parts import Parts
 from grasp_quality_cli.study_report import print_summary, Report
@@ -21,6 +22,7 @@ from grasp_quality_cli.study_rows import Chunk, Dataset
 from grasp_quality_cli.study_score import Question, score
 from grasp_quality_cli.study_workers import dask_workers, local_workers, work_off
 from grasp_quality_cli.task_text import chosen_load, chosen_task, require_folder
+from grasp_quality_cli.yaml_source import parse_yaml, read_text
 
 __all__ = ['Plan', 'print_summary', 'run']
 FORMAT = 1  # of the parts and the output
@@ -55,13 +57,16 @@ class Plan:
         question = Question(str(dataset), task, chosen_load(external_wrench, None),
                             barrier_weight, forces, ignored)
         yaml = task is not None and task.endswith(('.yaml', '.yml'))
-        if task is not None and (yaml or ' ' in task.strip() or ',' in task):
+        task_file = read_text(task) if yaml and task is not None else None  # a pipe is read once
+        if task is not None and task_file is not None:
+            question = replace(question, task=read_task(parse_yaml(task_file, task)))
+        elif task is not None and (' ' in task.strip() or ',' in task):
             question = replace(question, task=chosen_task(task, None))
         file = dataset.stat()
         parts = Parts(output, {
             'format': FORMAT, 'dataset': dataset.name, 'size': file.st_size,
             'modified_ns': file.st_mtime_ns, 'task': task,
-            'task_file': Path(task).read_text() if yaml and task is not None else None,
+            'task_file': task_file,
             'external_wrench': external_wrench, 'barrier_weight': barrier_weight,
             'forces': forces, 'ignored': list(ignored), 'chunk_rows': chunk_rows})
         return cls(source, question, parts, chunk_rows)

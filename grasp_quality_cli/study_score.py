@@ -20,7 +20,6 @@ from grasp_quality_cli.grasp_file import read_grasp, Task
 from grasp_quality_cli.json_source import JsonItem
 from grasp_quality_cli.source_item import FileError, SourceItem
 from grasp_quality_cli.study_rows import Chunk
-from grasp_quality_cli.task_text import chosen_task
 import numpy as np
 from numpy.typing import NDArray
 import pyarrow as pa
@@ -94,14 +93,16 @@ def _read(row: int, item: SourceItem | FileError, question: Question) -> _Asked:
         raise item
     source = read_grasp(item, also=('id', *question.ignored))
     name = item.named_items().get('id')
-    task = question.task
-    if task is None or isinstance(task, str):
-        if isinstance(task, str) and task not in source.tasks:
-            item.fail(f'must have the task {task!r}, it has {", ".join(source.tasks) or "none"}')
-        try:
-            task = chosen_task(task, source.tasks)
-        except GraspQualityError as exc:
-            item.fail(f'has no task: {exc}')
+    task, has = question.task, f'it has {", ".join(source.tasks) or "none"}'
+    if isinstance(task, str):
+        if task not in source.tasks:
+            item.fail(f'must have the task {task!r}, {has}')
+        task = source.tasks[task]
+    elif task is None:
+        if len(source.tasks) != 1:
+            item.fail(f'must have exactly one task, {has}: give --task "fx fy fz tx ty tz" for '
+                      'all rows, or --task NAME for one of their own')
+        task, = source.tasks.values()
     load = source.external_wrench if question.external_wrench is None else question.external_wrench
     return _Asked(row, _text_of(name), source.grasp, task, load)
 

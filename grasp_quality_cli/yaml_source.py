@@ -16,6 +16,8 @@ from pathlib import Path
 from grasp_quality_cli.source_item import FileError, SourceItem, WHOLE
 import yaml
 
+LARGEST_FILE = 1 << 20  # bytes, some ten thousand contacts; a file without end ends there
+
 
 @dataclass(frozen=True)
 class YamlItem(SourceItem):
@@ -84,22 +86,46 @@ class YamlItem(SourceItem):
 
 
 def load_yaml(path: Path | str) -> YamlItem:
+    """Load the one document of a YAML file: read_text and parse_yaml."""
+    return parse_yaml(read_text(path), path)
+
+
+def read_text(path: Path | str) -> str:
     """
-    Load the one document of a YAML file.
+    Read a file of UTF-8 text, of one that has no end no more than ``LARGEST_FILE``.
 
     Raises
     ------
     FileError
-        When it cannot be read, is not YAML, or is empty.
+        When it cannot be read, is larger, or is no such text.
 
     """
     try:
-        text = Path(path).read_text(encoding='utf-8')
-        node = yaml.compose(text, Loader=yaml.SafeLoader)
+        with open(path, 'rb') as file:
+            content = file.read(LARGEST_FILE + 1)
+        if len(content) > LARGEST_FILE:
+            raise FileError(
+                f'{path}: must be at most {LARGEST_FILE:,} bytes large, and is larger, or has no '
+                'end: give one grasp a file, or many to grasp-quality study, one a row')
+        return content.decode()
     except OSError as exc:
         raise FileError(f'{path}: cannot be read: {exc.strerror}') from exc
     except UnicodeDecodeError as exc:
         raise FileError(f'{path}: is not a text file in UTF-8: {exc}') from exc
+
+
+def parse_yaml(text: str, path: Path | str) -> YamlItem:
+    """
+    Read the one document of a text that is YAML; ``path`` is for complaints.
+
+    Raises
+    ------
+    FileError
+        When it is not YAML, or is empty.
+
+    """
+    try:
+        node = yaml.compose(text, Loader=yaml.SafeLoader)
     except RecursionError as exc:
         raise FileError(f'{path}: is not YAML: it is nested too deeply') from exc
     except yaml.MarkedYAMLError as exc:

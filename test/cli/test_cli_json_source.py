@@ -40,7 +40,7 @@ def test_a_line_that_is_no_json_is_told_with_its_number(line, words):
 
 
 @pytest.mark.parametrize('line, words', [
-    (b'3', 'file must be a mapping, got 3'), (b'{}', 'file must have the field contacts'),
+    (b'3', 'row must be a mapping, got 3'), (b'{}', 'row must have the field contacts'),
     (b'{"contacts": {}}', 'contacts must be a list, got {}'),
     (b'{"contacts": [{"position": [0, 0]}]}', 'must have exactly one of normal'),
     (b'{"contacts": [{"position": [0, 0], "normal": [1, 0, 0]}]}',

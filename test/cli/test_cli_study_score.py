@@ -95,7 +95,11 @@ def test_a_task_by_name_and_rows_that_lack_it(tmp_path):
     assert by_name[0]['alpha'] == pytest.approx(2.5, rel=SOLVER)
     assert "must have the task 'down', it has none" in by_name[1]['reason']
     only = scored(tmp_path, rows, task=None)
-    assert all(a['status'] == BAD_ROW and 'has no task' in a['reason'] for a in only)
+    assert [a['status'] for a in only] == [BAD_ROW, BAD_ROW]
+    for number, has in (1, 'up, down'), (2, 'none'):
+        assert only[number - 1]['reason'].startswith(
+            f'd:{number}: row must have exactly one task, it has {has}: give --task')
+    assert 'grasp file' not in str(only)
 
 
 def test_a_barrier_weight_buys_margin(tmp_path):
