@@ -5,7 +5,7 @@
 import dataclasses
 
 from benchmarks.random_grasps import BOUNDS, random_grasp, random_joint_limits, random_load
-from grasp_quality import Contact, ContactModel, evaluate, Grasp, TaskWrench
+from grasp_quality import Contact, ContactModel, evaluate, Grasp, JointLimits, TaskWrench
 from known_grasps import antipodal, FX, FY, single, three_finger, TX
 import numpy as np
 import pytest
@@ -121,6 +121,20 @@ def test_what_is_alike_is_told_together_in_any_order(task):
         assert solution.limiting_contact == next(iter(solution.limited_by))
     assert evaluate(pair, TaskWrench(FY)).limited_by == {'left': 'slip', 'right': 'slip'}
     assert evaluate(pair, TaskWrench(FY)).limiting_contact == 'left'
+
+
+def test_ties_are_told_in_the_order_of_the_contacts_and_joints_last():
+    """What limits alike is named in an order that the user chose, whatever the solver says."""
+    pair = list(antipodal(0.5).contacts)
+    for contacts in (pair, pair[::-1]):
+        solution = evaluate(Grasp(contacts), TaskWrench(FY))
+        assert list(solution.limited_by) == [c.name for c in contacts]
+        assert solution.limiting_contact == contacts[0].name
+        presses = np.zeros((1, 2, 4))
+        presses[0, [c.name for c in contacts].index('right'), 2] = 0.1
+        knuckle = JointLimits(['a knuckle'], [0.1], presses)  # as strong as the caps, 1 N
+        tie = evaluate(Grasp(contacts, 'linf', knuckle), TaskWrench(FY)).limited_by
+        assert list(tie) == [n for n in (*(c.name for c in contacts), 'a knuckle') if n in tie]
 
 
 @pytest.mark.parametrize('seed', range(8))

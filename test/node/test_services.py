@@ -59,6 +59,16 @@ def test_forces_apply_the_task_inside_their_cones(client):
     assert answer.limiting_contact in ('a', 'b', 'c')
 
 
+@pytest.mark.parametrize('names', [['left', 'right'], ['right', 'left']])
+def test_of_contacts_that_limit_alike_the_first_is_named(client, names):
+    contacts = contact_array(ANTIPODAL, name=names)
+    answer = evaluate(client, ANTIPODAL, wrench(fy=1.0), contacts=contacts)
+    assert answer.limiting_contact == names[0]
+    told = client.call(srv.Explain, 'explain', contacts=contacts, task_wrench=wrench(fy=1.0))
+    assert told.limiting_contact == names[0]
+    assert [c.share for c in told.contacts] == pytest.approx([0.5, 0.5], rel=1e-3)
+
+
 def test_the_sensitivity_agrees_with_a_small_change_of_the_load(client):
     task = wrench(fy=1.0)
     slope = numbers(evaluate(client, ANTIPODAL, task, external_wrench=GRAVITY)
