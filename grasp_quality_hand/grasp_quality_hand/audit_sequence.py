@@ -4,8 +4,8 @@
 Which messages of a topic did not come, by the numbers that every publisher gives to its own.
 
 A topic may have several publishers, and the number does not say whose it is: a message follows the
-one numbered one less, whoever sent that. That something is missing is known only when a later one has
-come.
+one numbered one less, whoever sent that. That something is missing is known only when a later one
+has come.
 """
 
 from collections import deque

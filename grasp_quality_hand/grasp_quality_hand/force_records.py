@@ -10,8 +10,8 @@ which it was sent: on a busy machine it may be read long after they were replace
 What cannot be judged because a part never came (best effort topics may lose one) is counted apart,
 and judged by what must hold whatever that part was.
 So is an objection that rests on a quality not seen, near (``GRACE_S``) qualities known to be lost,
-or with none heard that was sent later: it may be on its way, or not read yet. For a later one a part
-waits ``LATE_S``.
+or with none heard that was sent later: it may be on its way, or not read yet. For a later one a
+part waits ``LATE_S``.
 """
 
 from collections import Counter, deque

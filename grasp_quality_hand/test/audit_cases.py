@@ -23,7 +23,7 @@ CONTACTS = Contacts(STAMP, 'object', [
 QUALITY = Quality(STAMP, True, 3.0, (3.0, 0.0, 0.0), np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
                   np.array([0.0, 0.0, -3.0, 0.0, 0.0, 0.0]))
 FORCES = Forces(STAMP, 'object', [LEFT_FORCE, RIGHT_FORCE], 0.01)
-NEXT = dataclasses.replace(  # what the node says of the next sample: nothing before it may come still
+NEXT = dataclasses.replace(  # what the node says of the next sample: nothing before may come still
     QUALITY, stamp=2 * STAMP, optimal=False, alpha=0.0, others=())
 LOCAL = LocalWrench(STAMP, 'left', np.array([-3.0, 0.0, 6.0, 0.0, 0.0, 0.0]))
 

@@ -33,7 +33,8 @@ def test_where_a_quality_is_known_to_be_lost_it_may_be_the_one_that_fits(parts):
 
 @pytest.mark.parametrize('parts, late', [
     ([QUALITY, 4.0], changed(QUALITY, alpha=4.0)),
-    ([CONTACTS, FAILURE, FORCES], QUALITY), ([CONTACTS, changed(QUALITY, alpha=2.9), FORCES], QUALITY)])
+    ([CONTACTS, FAILURE, FORCES], QUALITY),
+    ([CONTACTS, changed(QUALITY, alpha=2.9), FORCES], QUALITY)])
 def test_a_quality_may_come_late(parts, late):
     """No number tells that one is missing before a later one has come."""
     for came, wrong in ((True, 0), (False, 1)):
