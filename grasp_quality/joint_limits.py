@@ -55,7 +55,7 @@ class JointLimits:
     def __post_init__(self) -> None:
         """Validate and copy."""
         if not isinstance(self.names, Iterable):
-            raise InvalidGraspError(f'joint names must be several, got {self.names!r}: give a list')
+            raise InvalidGraspError(f'joint names must be a list, got {self.names!r}')
         names = tuple(self.names)
         count = len(names)
         if not count or not all(isinstance(n, str) and n for n in names):

@@ -79,8 +79,8 @@ def test_a_subspace_is_one_of_the_names(subspace):
             ask(antipodal(), subspace=subspace)
 
 
-def test_joint_names_are_several():
-    with pytest.raises(gq.InvalidGraspError, match='joint names must be several, got 5: give'):
+def test_joint_names_are_a_list():
+    with pytest.raises(gq.InvalidGraspError, match='joint names must be a list, got 5'):
         gq.JointLimits(5, [1.0], np.ones((1, 2, 4)))
 
 
