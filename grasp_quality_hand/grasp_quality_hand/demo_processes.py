@@ -3,6 +3,7 @@
 """Child processes of the demo, and a ROS domain of their own for them."""
 
 from contextlib import contextmanager
+import ctypes
 import os
 from pathlib import Path
 import random
@@ -15,6 +16,7 @@ from ament_index_python.packages import get_package_prefix, PackageNotFoundError
 DOMAINS = range(1, 102)                 # those whose ports stay below the ephemeral ones
 FIRST_PORT = 32768                      # a TCP port per domain: who binds it has the domain
 ENDING = ((signal.SIGINT, 5.0), (signal.SIGTERM, 3.0), (signal.SIGKILL, 5.0))    # and wait [s]
+PR_SET_PDEATHSIG = 1                    # linux/prctl.h
 LAST_LINES = 8                          # of a log that are shown when its process failed
 
 
@@ -77,9 +79,14 @@ def signals_held():
             signal.raise_signal(received[0])
 
 
+def _end_with_parent():
+    """Ask the kernel for a SIGINT when who started this process is killed."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGINT)
+
+
 class ChildProcess:
     """
-    A child in a session of its own, with a log file, ended by its id.
+    A child in a session of its own, with a log file, ended by its id, or by its parent's death.
 
     ``started`` holds all children of this process: a signal may come before anybody else knows of
     one.
@@ -94,7 +101,7 @@ class ChildProcess:
         with open(self._log, 'wb') as output, signals_held():
             self._process = subprocess.Popen(
                 [str(part) for part in command], stdin=subprocess.DEVNULL, stdout=output,
-                stderr=subprocess.STDOUT, start_new_session=True)
+                stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=_end_with_parent)
             self.started.append(self)
 
     def check(self):

@@ -63,6 +63,14 @@ class DemoRun:
         return self.process.returncode, self._said + output
 
 
+def until(condition):
+    """Wait for a condition."""
+    end = time.monotonic() + DEADLINE
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
 @contextmanager
 def demos(folder):
     """Give a function that starts the demo; whatever is left at the end is killed."""
@@ -120,14 +128,15 @@ def test_the_bag_that_the_demo_records_can_be_evaluated(ended, tmp_path, capsys)
     assert row['measured_slip_margin_min'] is not None
 
 
-def test_ctrl_c_ends_everything(demo):
+@pytest.mark.parametrize('number, codes', [
+    (signal.SIGINT, (0, 130)), (signal.SIGKILL, (-signal.SIGKILL,))])
+def test_no_end_of_the_demo_leaves_anything_behind(demo, number, codes):
     run = demo('--keep')
     run.wait_for_line('starting')
-    end = time.monotonic() + DEADLINE
-    while len(run.processes()) < 4:    # demo, hand, node, recorder
-        assert time.monotonic() < end
-        time.sleep(0.05)
-    run.process.send_signal(signal.SIGINT)
+    until(lambda: len(run.processes()) == 4)  # demo, hand, node, recorder
+    run.process.send_signal(number)
     code, output = run.end()
-    assert code in (0, 130) and 'Traceback' not in output
+    assert code in codes and 'Traceback' not in output
+    if number == signal.SIGKILL:  # nobody is left to wait for the others
+        until(lambda: not run.processes())
     assert run.processes() == []
