@@ -36,7 +36,7 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from std_msgs.msg import Header
 
-WATCH_SHARE = 0.25  # of max_contact_age between two looks of the watchdog
+WATCH_SHARE = 0.25  # of the shortest age between two looks of the watchdog
 FLUSH_S = 0.5       # longest wait for subscribers to have the last word
 
 
@@ -71,7 +71,7 @@ class GraspQualityNode(LifecycleNode):
         self._subscribe()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._watchdog = self.create_timer(
-            WATCH_SHARE * self.settings.max_contact_age, self._guarded(self._on_watch),
+            WATCH_SHARE * self.settings.shortest_age, self._guarded(self._on_watch),
             clock=steady)
         self.create_timer(
             1.0 / self.settings.marker_rate, self._guarded(self._display.draw), clock=steady)
@@ -113,9 +113,10 @@ class GraspQualityNode(LifecycleNode):
         for name in self.settings.contact_names:
             subscribe(WrenchStamped, f'~/contact_wrenches/{name}',
                       sample(functools.partial(inputs.store_wrench, name)), sensor)
-        for topic, keep in (('~/task_wrench', inputs.store_task_wrench),
-                            ('~/external_wrench', inputs.store_load)):
-            subscribe(WrenchStamped, topic, self._guarded(then_evaluate(keep)), command)
+        subscribe(WrenchStamped, '~/task_wrench',
+                  self._guarded(then_evaluate(inputs.store_task_wrench)), command)
+        subscribe(WrenchStamped, '~/external_wrench',
+                  sample(then_evaluate(inputs.store_load)), command)
         source = self.settings.contact_source
         subscribe(PoseArray if source == 'pose_array' else ContactArray, SOURCES[source],
                   sample(then_evaluate(inputs.store_contacts)), sensor)
@@ -172,9 +173,8 @@ class GraspQualityNode(LifecycleNode):
         names = [change.name for change in changes]
         if 'task_wrench' in names:
             self._inputs.set_task_wrench(self.settings.task_wrench)
-        if 'max_contact_age' in names:
-            self._watchdog.timer_period_ns = int(
-                1e9 * WATCH_SHARE * self.settings.max_contact_age)
+        if not {'max_contact_age', 'max_load_age'}.isdisjoint(names):
+            self._watchdog.timer_period_ns = int(1e9 * WATCH_SHARE * self.settings.shortest_age)
             self._watchdog.reset()  # else it sleeps on for one old period; _evaluate looks now
         if any(name in parameters.TABLE for name in names):
             self._evaluate()

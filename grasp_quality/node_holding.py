@@ -59,7 +59,7 @@ class HoldingForces:
             self._tell(str(exc))
             return None
         if time.monotonic() > deadline:
-            self._tell('the contacts became stale while they were computed')
+            self._tell('contacts or load became stale while they were computed')
             return None
         if not held.feasible:
             self._tell('no forces inside cones, bound and joint limits hold the external wrench')

@@ -5,9 +5,8 @@ What the node has received: the newest message of every topic, and how old it is
 
 Nothing is judged on arrival. ``scene`` turns the newest contacts into core objects when they are
 asked for; a message that cannot be used is an error there, and the next good one is all it takes
-to recover. Arrival is told by the steady clock, stamps by the ROS clock: contacts are as old as
-the older of the two says. Without a stamp they are as old as their sending, by the clock of the
-sender: they may have waited in a queue. Task and load hold until they are replaced.
+to recover. How old contacts and loads are ``node_ages`` tells. A task holds until it is replaced,
+and so does a load unless ``max_load_age`` says otherwise (``node_loads``).
 """
 
 from __future__ import annotations
@@ -20,7 +19,9 @@ from grasp_quality.arrays import Array
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.grasp import Grasp
 from grasp_quality.moving import moved
+from grasp_quality.node_ages import Ages, Subject
 from grasp_quality.node_felt import doubts, Felt
+from grasp_quality.node_loads import Loads
 from grasp_quality.node_scene import Scene
 from grasp_quality.node_settings import Settings, SOURCES
 from msg_adapters.contacts import contacts_from_array, contacts_from_poses
@@ -33,6 +34,8 @@ from msg_adapters.stamps import stamp_ns
 from msg_adapters.tasks import HeldLoad, HeldTask, NoFrame
 from msg_adapters.wrenches import to_wrench
 
+NEWEST = Subject('the newest contacts are', 'max_contact_age')
+ANSWERED = Subject('the contacts of this answer are', 'max_contact_age')
 NOT_LOADED = (
     'no contact is loaded: no measured normal force, of the finger on the object, reaches '
     'min_contact_force')
@@ -50,14 +53,13 @@ class Inputs:
     def __init__(self, settings: Callable[[], Settings], now_ns: Callable[[], int],
                  steady_ns: Callable[[], int] = time.monotonic_ns) -> None:
         self._settings = settings
-        self._now_ns = now_ns
-        self._steady_ns = steady_ns
+        self._ages = Ages(settings, now_ns, steady_ns)
         self._contacts: tuple[Any, int] | None = None  # message, arrival [ns]
         # contact message, settings, Grasp, object frame
         self._read: tuple[Any, Settings, Grasp, str] | None = None
         self._wrenches: dict[str, tuple[StampedWrench, int]] = {}  # by contact; arrival [ns]
         self.task: Any = None      # SetTask.Request or HeldTask
-        self.load: HeldLoad | None = None
+        self.loads = Loads(settings, self._ages)
         self.tf_buffer: Any = None  # tf2_ros.Buffer where tf2 is installed
         self._felt: Felt | None = None  # by the contacts of the last scene
         self.elsewhere = ''  # who else publishes contacts, while none have come
@@ -91,14 +93,8 @@ class Inputs:
         """Keep a PoseArray or ContactArray, unless one with a later stamp is fresh; tell if so."""
         if self._is_late(message):
             return False
-        self._contacts = (message, self._arrival_ns(message, sent_ns))
+        self._contacts = (message, self._ages.arrival_ns(message, sent_ns))
         return True
-
-    def _arrival_ns(self, message: Stamped, sent_ns: int | None) -> int:
-        """Steady time of arrival; without a stamp, of sending: it may have waited in a queue."""
-        waited = 0 if sent_ns is None or stamp_ns(message.header.stamp) \
-            else max(0, time.time_ns() - sent_ns)
-        return self._steady_ns() - waited
 
     def _is_late(self, message: Stamped) -> bool:
         if self._contacts is None or not stamp_ns(message.header.stamp):
@@ -112,20 +108,20 @@ class Inputs:
     def store_wrench(
             self, name: str, message: StampedWrench, sent_ns: int | None = None) -> None:
         """Keep the measured WrenchStamped of a contact."""
-        self._wrenches[name] = (message, self._arrival_ns(message, sent_ns))
+        self._wrenches[name] = (message, self._ages.arrival_ns(message, sent_ns))
 
     def set_task(self, request: Any) -> None:
         """Keep a SetTask request: its task, and its external wrench as the load."""
         self.task = request
-        self.load = HeldLoad(request.external_wrench, request.header)
+        self.loads.give(HeldLoad(request.external_wrench, request.header))
 
     def store_task_wrench(self, message: StampedWrench) -> None:
         """Keep a WrenchStamped as the task of the live loop; the load stays."""
         self.task = HeldTask(message.wrench, message.header)
 
-    def store_load(self, message: StampedWrench) -> None:
+    def store_load(self, message: StampedWrench, sent_ns: int | None = None) -> None:
         """Keep a WrenchStamped as the external wrench of the live loop."""
-        self.load = HeldLoad(message.wrench, message.header)
+        self.loads.store(message, sent_ns)
 
     def set_task_wrench(self, wrench: Sequence[float]) -> None:
         """Keep fx fy fz tx ty tz in the object frame as the task; empty leaves the task alone."""
@@ -147,19 +143,11 @@ class Inputs:
             raise NoContactsError(
                 f'no contacts received yet on {SOURCES[source]} (parameter contact_source is '
                 f'{source}){self.elsewhere}')
-        limit = self._settings().max_contact_age
-        message, arrival = held
-        ages = self._ages(message, arrival)
-        if min(ages) < -limit:
-            raise StaleContactsError(
-                f'the contacts are stamped {-min(ages):.3f} s ahead of this clock: synchronise '
-                'the clocks (max_contact_age is the tolerance)')
-        if max(ages) > limit:
-            raise StaleContactsError(
-                f'the {"newest contacts" if contacts is None else "contacts of this answer"} are '
-                f'{max(ages):.3f} s old, max_contact_age is {limit:g} s'
-                + ' (not stamped: as sent)' * (stamp_ns(message.header.stamp) == 0))
-        return max(max(ages), 0.0)
+        return self._ages.checked_s(*held, NEWEST if contacts is None else ANSWERED)
+
+    def left_s(self) -> float:
+        """Time until the newest contacts or the load are too old [s]; raises when they are."""
+        return min(self._settings().max_contact_age - self.age_s(), self.loads.left_s())
 
     def scene(self) -> Scene:
         """
@@ -233,7 +221,7 @@ class Inputs:
             message, arrival = self._wrenches.get(name, (None, 0))
             force = None
             if message is not None:
-                ages = self._ages(message, arrival)
+                ages = self._ages.of(message, arrival)
                 if -limit <= min(ages) and max(ages) <= limit:
                     try:
                         force = local_force(message, contacts[i], frame)
@@ -241,8 +229,3 @@ class Inputs:
                         refused[name] = str(exc)
             forces.append(force)
         return Felt(contacts, forces, refused)
-
-    def _ages(self, message: Stamped, arrival: int) -> tuple[float, float]:
-        since_arrival = (self._steady_ns() - arrival) * 1e-9
-        stamp = stamp_ns(message.header.stamp)
-        return since_arrival, (self._now_ns() - stamp) * 1e-9 if stamp else since_arrival

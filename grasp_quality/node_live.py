@@ -5,7 +5,8 @@ The live loop: one solve for every new sample of contacts, always of the newest.
 
 Nothing queues: a sample that arrives during a solve replaces the one before it. The watchdog
 publishes a failure at its own rate while contacts are missing or stale, so that silence is noticed
-at once. Errors of any kind end in a published code, never in an exception.
+at once; of a load that becomes stale between samples it tells once, as every further sample does.
+Errors of any kind end in a published code, never in an exception.
 """
 
 import time
@@ -40,6 +41,7 @@ class LiveLoop:
         self._follower = Follower()
         self._now = now
         self._task = (None, None, None)  # message, settings, and what they say
+        self._answered = False  # and not failed since
 
     def evaluate(self):
         """Solve the newest contacts for the live task and publish the answer."""
@@ -47,10 +49,11 @@ class LiveLoop:
         try:
             scene = self._inputs.scene()
             quality, answer, load = self._answer(scene)
-            self._outputs.publish(quality, scene.grasp, *answer, check=self._inputs.age_s)
+            self._outputs.publish(quality, scene.grasp, *answer, check=self._inputs.left_s)
+            self._answered = True
             self._follower.published(scene.grasp, answer[0])
             if quality.result.code == ResultCode.OPTIMAL:
-                left = self._settings().max_contact_age - self._inputs.age_s()
+                left = self._inputs.left_s()
                 self._holding.publish(self._outputs, quality, scene.grasp, load, left)
             self._display.show(scene, load, quality, *answer)
             self._monitor.count(quality)
@@ -63,29 +66,37 @@ class LiveLoop:
     def forget(self):
         """Begin anew, as after a deactivation: the next forces owe nothing to the last."""
         self._follower.forget()
+        self._answered = False
 
     def watch(self):
-        """Publish a failure when there are no fresh contacts; else leave it to the samples."""
+        """Publish a failure when there are no fresh contacts, or no load for the last answer."""
         try:
             self._inputs.age_s()
         except (NoContactsError, StaleContactsError) as exc:
             self._fail(exc, None)
+            return
+        try:
+            self._inputs.loads.left_s()
+        except StaleContactsError as exc:
+            if self._answered:
+                self._fail(exc, None, has_margin=True)
 
-    def _fail(self, exc, scene):
+    def _fail(self, exc, scene, has_margin=False):
+        self._answered = False
         stamp, frame = (self._now(), '') if scene is None else (scene.stamp, scene.frame)
         result = error_result(exc)
         self._monitor.count_failure(result, exc)
         self._outputs.publish_failure(result, stamp, frame)
         self._display.clear(Header(stamp=stamp, frame_id=frame))
-        if scene is None:
+        if scene is None and not has_margin:
             self._margin.fail(result, Header(stamp=stamp, frame_id=frame))
 
     def _answer(self, scene):
         settings = self._settings()
         started = time.perf_counter()
         task, load = self._task_and_load(scene)
-        # the watchdog cannot bark during a solve, which must end before the contacts are stale
-        limit = min(settings.solver_time_limit, settings.max_contact_age - self._inputs.age_s())
+        # the watchdog cannot bark during a solve, which must end before contacts or load are stale
+        limit = min(settings.solver_time_limit, self._inputs.left_s())
         solution = evaluate(scene.grasp, task, load, settings.barrier_weight, limit,
                             settings.alpha_reserve, self._follower.start)
         solution, wrench = governing(task, solution)
@@ -99,7 +110,7 @@ class LiveLoop:
         margin = measured_margin(scene)
         quantile, reason = {}, ''
         if solution.feasible:
-            left = min(limit - solve_time, settings.max_contact_age - self._inputs.age_s())
+            left = min(limit - solve_time, self._inputs.left_s())
             quantile, reason = live_quantile(scene, task, load, settings, left)
         result = status_result(solution.status, remark=solution.remark)
         result.message = result.message or reason
@@ -128,7 +139,8 @@ class LiveLoop:
             task = live_task(inputs.task, transform, settings.max_request_size)
             # a transform may be another one for every sample
             self._task = (None if transform is not None else inputs.task, settings, task)
-        if inputs.load is None:
+        load = inputs.loads.newest()
+        if load is None:
             return task, None
         return task, load_from(
-            inputs.load.wrench, inputs.transform(inputs.load.header, scene.frame, scene.stamp))
+            load.wrench, inputs.transform(load.header, scene.frame, scene.stamp))

@@ -15,10 +15,11 @@ import difflib
 import enum
 from typing import Any
 
-from grasp_quality.node_settings import Settings
+from grasp_quality.node_settings import LEAST_AGE_S, Settings
 from grasp_quality.uncertainty import LARGEST_POSITION, LARGEST_TILT
 
 LARGE = 1e6
+LARGEST_AGE_S = 3600.0
 NEAR = 0.85  # likeness of a misspelt name
 
 
@@ -67,8 +68,11 @@ TABLE: dict[str, tuple[Type, str, tuple[float, float] | None, bool]] = {
                       (0.0, 0.99), False),
     'margin_warning': (Type.DOUBLE, 'Measured slip margin [-] below which /diagnostics warns; -1: '
                        'never', (-1.0, 1.0), False),
-    'max_contact_age': (Type.DOUBLE, 'Age [s] beyond which contacts are stale', (1e-3, 3600.0),
-                        False),
+    'max_contact_age': (Type.DOUBLE, 'Age [s] beyond which contacts are stale',
+                        (LEAST_AGE_S, LARGEST_AGE_S), False),
+    'max_load_age': (Type.DOUBLE, 'Age [s] beyond which a load of ~/external_wrench is stale, a '
+                     'failure as is none at all; one that set_task gave (not zero) does not age. '
+                     '0: loads do not age, and none is no load', (0.0, LARGEST_AGE_S), False),
     'solver_time_limit': (Type.DOUBLE, 'Time limit of one request or evaluation [s], > 0',
                           (0.0, 3600.0), False),
     'max_request_size': (Type.INTEGER, 'Largest number of contacts, wrenches or directions of one '

@@ -21,6 +21,7 @@ from msg_adapters.number_checks import checked_numbers, SMALLEST
 from msg_adapters.topic_names import names_a_topic, TOPIC_RULE
 
 SOURCES = {'pose_array': '~/contact_poses', 'contact_array': '~/contacts'}  # their topics
+LEAST_AGE_S = 1e-3  # that can be a limit
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,7 @@ class Settings:
     wanted_margin: float = 0.2
     margin_warning: float = -1.0
     max_contact_age: float = 0.1
+    max_load_age: float = 0.0
     solver_time_limit: float = 1.0
     max_request_size: int = 4096
     map_directions: int = 2592
@@ -74,6 +76,9 @@ class Settings:
         for name in ('max_normal_force', 'max_contact_age', 'solver_time_limit'):
             if not getattr(self, name) > 0.0:
                 raise ValueError(f'{name} must be greater than 0, got {getattr(self, name)}')
+        if self.max_load_age != 0.0 and not self.max_load_age >= LEAST_AGE_S:
+            raise ValueError(f'max_load_age must be 0 (loads do not age) or at least '
+                             f'{LEAST_AGE_S:g} s, got {self.max_load_age:g}')
         if '' in self.contact_names or len(set(self.contact_names)) != len(self.contact_names):
             raise ValueError(
                 f'contact_names must be unique and not empty, got {list(self.contact_names)}')
@@ -121,6 +126,11 @@ class Settings:
             raise ValueError(
                 f'quantile_samples must be 0 (off) or at least {fewest} for the quantile_level '
                 f'{self.quantile_level:g}, got {self.quantile_samples}')
+
+    @property
+    def shortest_age(self) -> float:
+        """Return the least of the ages at which something is stale [s]."""
+        return min(self.max_contact_age, self.max_load_age or self.max_contact_age)
 
     @property
     def contact_defaults(self) -> ContactDefaults:

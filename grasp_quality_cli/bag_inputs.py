@@ -151,9 +151,10 @@ class BagInputs:
                 task = live_task(inputs.task, inputs.transform(
                     inputs.task.header, scene.frame, scene.stamp),
                     self._settings.max_request_size)
-        if load is None and inputs.load is not None:
-            load = load_from(inputs.load.wrench, inputs.transform(
-                inputs.load.header, scene.frame, scene.stamp))
+        held = inputs.loads.newest() if load is None else None
+        if held is not None:
+            load = load_from(held.wrench, inputs.transform(
+                held.header, scene.frame, scene.stamp))
         return task, load
 
     def _note_gap(self, name: str, record: Record) -> None:

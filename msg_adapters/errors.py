@@ -18,7 +18,7 @@ class NoContactsError(GraspQualityError):
 
 
 class StaleContactsError(GraspQualityError):
-    """The newest contacts are too old, or from the future."""
+    """What is to be answered for, contacts or load, is too old, from the future, or replaced."""
 
 
 class NotActiveError(GraspQualityError):

@@ -121,7 +121,8 @@ class Asker:
             messages = {name: deserialize_message(serialize_message(message), type(message))
                         for name, message in messages.items()}
         inputs.clear()
-        inputs.task = inputs.load = None
+        inputs.task = None
+        inputs.loads.clear()
         answer = Answer()
         if case.kind == LIVE:
             self._ask_live(messages, answer, everything)

@@ -58,7 +58,7 @@ inputs.store_load(stamped('object', 0.0, 0.0, -1.0, 0.0, 0.0, 0.0))
 scene = inputs.scene()
 task = live_task(inputs.task, None, 1)
 solution, _ = governing(task, evaluate(
-    scene.grasp, task, load_from(inputs.load.wrench, None)))
+    scene.grasp, task, load_from(inputs.loads.newest().wrench, None)))
 assert abs(solution.alpha - 4.5) < 1e-5
 assert abs(measured_margin(scene) - 0.5) < 1e-12
 """

@@ -163,6 +163,26 @@ def test_what_is_wrong_is_listed_with_its_time_and_nothing_is_lost(tmp_path, rep
     assert 'http' not in report
 
 
+def test_recorded_loads_age_as_in_the_node(tmp_path, replay):
+    at = [START_NS + i * PERIOD_NS for i in range(4)]
+    age_s = 1.5e-9 * PERIOD_NS
+    with BagWriter(tmp_path / 'bag') as bag:
+        pinches(bag, 1)
+        bag.write(LOAD, at[1], wrench_stamped(at[1], (0, 0, -1, 0, 0, 0), ''))
+        pinches(bag, 3, start=1)
+    _, _, answers, _ = replay(
+        tmp_path / 'bag', '--task', LIFT, '--set', f'max_load_age={age_s}')
+    assert [a['code'] for a in answers] == [
+        'STALE_CONTACTS', 'OPTIMAL', 'OPTIMAL', 'STALE_CONTACTS']
+    assert 'no load received yet' in answers[0]['message']
+    assert 'max_load_age' in answers[3]['message']
+    _, row, _, _ = replay(tmp_path / 'bag', '--task', LIFT, '--set', f'max_load_age={age_s}',
+                          '--external-wrench', '0 0 -1 0 0 0')
+    assert row['codes'] == {'OPTIMAL': 4}
+    _, row, _, _ = replay(tmp_path / 'bag', '--task', LIFT)
+    assert row['codes'] == {'OPTIMAL': 4}
+
+
 # bytes before the first message: schemas of the types in MCAP, a page for each table in SQLite
 OVERHEAD = {'mcap': 8_192, 'db3': 12 * 4_096}
 

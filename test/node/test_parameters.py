@@ -18,7 +18,7 @@ NAMES = {
     'object_frame', 'contact_source', 'contact_names', 'contact_fingers', 'contact_model',
     'friction_coefficient', 'torsional_friction_coefficient', 'max_normal_force', 'force_bound',
     'barrier_weight', 'alpha_reserve', 'force_rate_limit', 'wanted_margin', 'margin_warning',
-    'task_wrench', 'min_contact_force', 'max_contact_age', 'solver_time_limit',
+    'task_wrench', 'min_contact_force', 'max_contact_age', 'max_load_age', 'solver_time_limit',
     'max_request_size', 'map_directions', 'marker_rate', 'marker_force_scale',
     'display_time_share', 'autostart', 'quantile_samples', 'quantile_level', 'contact_noise',
     'normal_noise', 'friction_noise', 'load_noise'}
@@ -98,6 +98,9 @@ def test_a_barrier_weight_buys_margin_with_alpha(client, alpha, restored):
     ({'friction_coefficient': 'high'}, 'DOUBLE'),
     ({'max_normal_force': 0.0}, 'max_normal_force must be greater than 0'),
     ({'max_contact_age': 0.0}, 'max_contact_age'),
+    ({'max_load_age': -1.0}, 'out of range'), ({'max_load_age': math.inf}, 'out of range'),
+    ({'max_load_age': math.nan}, 'out of range'), ({'max_load_age': 'soon'}, 'DOUBLE'),
+    ({'max_load_age': 1e-4}, 'max_load_age must be 0 (loads do not age) or at least 0.001 s'),
     ({'force_bound': 'l3'}, "force_bound must be one of ['l1', 'l2', 'linf', 'finger']"),
     ({'contact_model': 'rubber'}, "contact_model must be one of ['FPC', 'PCWF', 'SFCE']"),
     ({'task_wrench': [0.0] * 6}, 'task_wrench must not be zero'),

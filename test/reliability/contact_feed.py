@@ -1,6 +1,6 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""A contact publisher as a process of its own, so that it can be killed: see ``--help``."""
+"""A publisher of contacts or loads as a process, so that it can be killed: see ``--help``."""
 
 import argparse
 import math
@@ -11,9 +11,10 @@ import time
 
 sys.path.insert(0, str(Path(__file__).parents[1] / 'node'))
 
-from geometry_msgs.msg import Pose, PoseArray  # noqa: E402
+from geometry_msgs.msg import Pose, WrenchStamped  # noqa: E402
 import grasps  # noqa: E402
 from harness import BEST_EFFORT  # noqa: E402
+from msg_adapters.qos import newest_command  # noqa: E402
 import rclpy  # noqa: E402
 from rclpy.signals import SignalHandlerOptions  # noqa: E402
 from rclpy.time import Time  # noqa: E402
@@ -27,6 +28,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument('target', help='name of the quality node, with its namespace')
     parser.add_argument('--grasp', default='ANTIPODAL', help='name of a grasp in grasps.py')
     parser.add_argument('--ring', type=int, help='so many contacts around a sphere instead')
+    parser.add_argument('--load', type=float, help='a force along z [N] instead of contacts')
     parser.add_argument('--rate', type=float, default=100.0, help='[Hz]')
     parser.add_argument('--stamps', default='0.0', help='zero, or seconds ahead of now; after '
                         'SIGUSR1 the last one again and again')
@@ -51,11 +53,13 @@ def main() -> int:
         signal.signal(number, lambda received, frame: stopping.append(received))
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     node = rclpy.create_node('contact_feed', start_parameter_services=False)
-    publisher = node.create_publisher(PoseArray, f'{asked.target}/contact_poses', BEST_EFFORT)
+    message, topic, qos = (
+        grasps.pose_array(ring(asked.ring) if asked.ring else getattr(grasps, asked.grasp)),
+        'contact_poses', BEST_EFFORT) if asked.load is None else (
+        WrenchStamped(wrench=grasps.wrench(fz=asked.load)), 'external_wrench', newest_command())
+    publisher = node.create_publisher(type(message), f'{asked.target}/{topic}', qos)
     while not publisher.get_subscription_count() and not stopping:
         time.sleep(0.01)
-    message = grasps.pose_array(
-        ring(asked.ring) if asked.ring else getattr(grasps, asked.grasp))
     begin, sent = time.monotonic(), 0
     ahead_ns = 0 if asked.stamps == 'zero' else int(1e9 * float(asked.stamps))
     due = begin
