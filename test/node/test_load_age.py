@@ -50,7 +50,7 @@ class Hand:
         self.load()
         self.contacts()
 
-    def set(self, **changes):
+    def change(self, **changes):
         """Set parameters."""
         results = self.client.call(SetParameters, 'set_parameters', parameters=[
             Parameter(name, value=value).to_parameter_msg() for name, value in changes.items()])
@@ -137,12 +137,12 @@ def test_silence_is_told_between_contacts_too(start):
 def test_an_age_that_is_set_is_watched_at_once(start):
     hand = Hand(start, max_contact_age=60.0)
     hand.held(3.0, hand.both)
-    hand.set(max_load_age=MAX_AGE_S)
+    hand.change(max_load_age=MAX_AGE_S)
     hand.held(3.0, hand.both)
     silent = time.monotonic()
     hand.outputs.failure(STALE)
     assert time.monotonic() - silent < 2 * MAX_AGE_S
-    hand.set(max_load_age=0.0)
+    hand.change(max_load_age=0.0)
     hand.held(3.0, hand.contacts)
 
 
