@@ -101,7 +101,8 @@ class ChildProcess:
         with open(self._log, 'wb') as output, signals_held():
             self._process = subprocess.Popen(
                 [str(part) for part in command], stdin=subprocess.DEVNULL, stdout=output,
-                stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=_end_with_parent)
+                stderr=subprocess.STDOUT, start_new_session=True,
+                preexec_fn=_end_with_parent)  # noqa: PLW1509 - takes no lock a thread may hold
             self.started.append(self)
 
     def check(self):
