@@ -17,6 +17,7 @@ import pytest
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 
+pytestmark = pytest.mark.alone  # silence is told within a time
 MAX_AGE_S = 0.5
 UP = wrench(fy=1.0)
 TASK = '[0.0, 1.0, 0.0, 0.0, 0.0, 0.0]'
