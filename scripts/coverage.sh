@@ -13,7 +13,7 @@ nodes='grasp_quality/node*.py,grasp_quality/lifecycle_node.py'
 rm -rf build/coverage
 mkdir -p build/coverage
 code=0
-coverage run -m pytest test grasp_quality_hand/test "$@" || code=1
+PYTEST='coverage run -m pytest' scripts/test.sh "$@" || code=1
 # compiled functions once more as plain Python, which takes far longer: of the ball its quicker tests
 ball=test/core/test_ball.py
 PYTHONPATH=test:$PYTHONPATH coverage run -m pytest -p uncompiled \

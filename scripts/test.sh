@@ -4,12 +4,13 @@
 
 # All tests; arguments go to pytest. Two files at a time first, because most tests of nodes wait;
 # then, one after the other, those that need the machine for themselves (marker "alone").
+# PYTEST may say how to start pytest (scripts/coverage.sh).
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 nothing=5 # pytest's exit code where arguments leave no test
 
 run() {
-    python -m pytest "$@"
+    ${PYTEST:-python -m pytest} "$@"
     local code=$?
     [ $code -eq $nothing ] || chosen=yes
     [ $code -eq 0 ] || [ $code -eq $nothing ] || failed=$code

@@ -36,10 +36,10 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import Float64
 
-DEPTH = 1000
-INPUT = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
-OUTPUT = QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.RELIABLE)
+INPUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
+OUTPUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
 JUDGE_PERIOD_S = 0.2
+TAKING_S = 0.1  # of one topic in a row: a busy machine may fill it faster than it is read
 REPORT_PERIOD_S = 1.0
 ANSWER_S = 5.0  # after which an answer about parameters will not come
 PLAIN_NAME = re.compile('[A-Za-z_][A-Za-z0-9_]*')  # others make no topic
@@ -139,9 +139,9 @@ class ForceAuditNode(Node):
         now_s = time.monotonic()  # what came before is read below, however long that takes
         self._ask()
         for take in (*self._takes, self._takes[0]):  # changes of parameters before and after
-            for _ in range(DEPTH):  # a busy machine may fill them faster than they are read
-                if not take():
-                    break
+            end_s = time.monotonic() + TAKING_S
+            while take() and time.monotonic() < end_s:
+                pass
         # the node works them out for listeners only: listen where somebody else does
         if not self._holding and self.count_subscribers(f'{self.target}/holding_forces'):
             self._holding = True
