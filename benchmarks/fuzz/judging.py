@@ -30,6 +30,7 @@ CODES = {int(code): code.name for code in Code}
 ANSWERED = (ResultCode.OPTIMAL, ResultCode.INFEASIBLE)
 UNSOLVED = (ResultCode.SOLVER_FAILED, ResultCode.TIMED_OUT)
 GAP = 1e-6
+DENORMAL = 1e-300  # below it numbers have no digits to compare
 LOADED = {'contact_forces', 'holding_forces'}
 
 
@@ -213,12 +214,17 @@ def _inside(request: Any, response: Any) -> list[str]:
     sides = np.stack([six(request.lateral_x), six(request.lateral_y)], axis=1)
     rest = wrench - response.alpha * axis
     lengths = np.linalg.norm(sides, axis=0)
-    lengths[lengths == 0.0] = 1.0  # laterals of one length: rounding would drop the shorter
-    along = np.linalg.lstsq(sides / lengths, rest, rcond=None)[0] / lengths
+    lengths[lengths == 0.0] = 1.0
+    # laterals of one length: rounding would drop the shorter; as they are: parallel ones share
+    witnesses = [np.linalg.lstsq(sides / lengths, rest, rcond=None)[0] / lengths,
+                 np.linalg.lstsq(sides, rest, rcond=None)[0]]
     size = max(np.abs(wrench).max(), response.alpha * np.abs(axis).max())
-    if np.abs(sides @ along - rest).max() > GAP * size:
+    made = [along for along in witnesses
+            if np.abs(sides @ along - rest).max() <= GAP * size + DENORMAL]
+    if not made:
         return ['optimal_wrench is not made of axis and laterals']
-    if np.hypot(*along) > math.tan(request.half_angle) * response.alpha * (1.0 + GAP) + (
+    if min(np.hypot(*along) for along in made) > math.tan(
+            request.half_angle) * response.alpha * (1.0 + GAP) + (
             GAP * size / max(np.abs(sides).max(), 1e-300)):
         return ['optimal_wrench is outside the task cone']
     return []
