@@ -11,6 +11,7 @@ nothing. It sends nothing to hands.
 
 from collections.abc import Callable
 import dataclasses
+import math
 import re
 import signal
 import sys
@@ -136,10 +137,11 @@ class ForceAuditNode(Node):
         return dataclasses.replace(self._read_forces(message, sent_ns), are_holding=True)
 
     def _judge(self) -> None:
-        now_s = time.monotonic()  # what came before is read below, however long that takes
+        now_s = time.monotonic()  # reading takes time: what came meanwhile waits for the next
         self._ask()
-        for take in (*self._takes, self._takes[0]):  # changes of parameters before and after
-            end_s = time.monotonic() + TAKING_S
+        changes, *others = self._takes  # all changes of parameters, before and after the others
+        for take in (changes, *others, changes):
+            end_s = math.inf if take is changes else time.monotonic() + TAKING_S
             while take() and time.monotonic() < end_s:
                 pass
         # the node works them out for listeners only: listen where somebody else does
