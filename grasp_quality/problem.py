@@ -19,6 +19,7 @@ it; building is then one gather of numbers. Nothing here knows of a solver.
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from grasp_quality.arguments import require_grasp
 from grasp_quality.arrays import Array, frozen
 from grasp_quality.exceptions import InvalidTaskError
 from grasp_quality.grasp import Grasp
@@ -160,9 +161,10 @@ def build_problem(grasp: Grasp, task: TaskWrench | TaskCone,
 
     Raises
     ------
-    InvalidTaskError
+    InvalidGraspError, InvalidTaskError
 
     """
+    require_grasp(grasp)
     if isinstance(task, TaskWrench):
         wrenches = task.wrench[None]
     elif isinstance(task, TaskCone):

@@ -19,7 +19,8 @@ TASK = gq.TaskWrench(FY)
     lambda g: gq.slip_margin(g, np.zeros((2, 4))),
     lambda g: gq.measured_margin(g, np.zeros((2, 4))), lambda g: gq.explain(g, TASK),
     gq.ball_radius, lambda g: gq.ellipsoid_scale(g, gq.TaskEllipsoid(np.eye(6))), gq.volume,
-    gq.grasp_indices, gq.force_closure, lambda g: gq.robust_alpha(g, TASK)])
+    gq.grasp_indices, gq.force_closure,
+    lambda g: gq.build_problem(g, TASK), lambda g: gq.robust_alpha(g, TASK)])
 def test_contacts_are_no_grasp_yet(ask):
     with pytest.raises(gq.InvalidGraspError, match=r'grasp must be a Grasp, got list: .*Grasp\('):
         ask([gq.Contact((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))])
