@@ -34,7 +34,7 @@ def browser(browser_files, tmp_path_factory):
     """Start Chromium with software rendering."""
     from page import open_browser
 
-    driver = open_browser(*browser_files, tmp_path_factory.mktemp('profile'))
+    driver = open_browser(*browser_files, tmp_path_factory.mktemp('profile'), slow_screen=True)
     yield driver
     driver.quit()
 

@@ -21,17 +21,24 @@ FLAGS = ('--headless=new', '--no-sandbox', '--disable-quic', '--no-first-run',
          '--disable-background-networking', '--disable-component-update', '--disable-sync',
          '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader')
 SHARPNESS = 0.5   # pixels drawn for each of the screen: a quarter of the work without a card
+HZ = 1.0          # of that screen, where what is drawn matters and not how often
 SCRIPT_S = 120.0  # that one look at the page may take where it is drawn without a graphics card
+SLOW_SCREEN = f'''
+window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), {1000.0 / HZ});
+window.cancelAnimationFrame = clearTimeout;'''
 PORTS = range(18080, 18980)
 
 
-def open_browser(chromium, driver, profile, size='900,640'):
-    """Start a headless Chromium that draws in software."""
+def open_browser(chromium, driver, profile, size='900,640', slow_screen=False):
+    """Start a headless Chromium that draws in software, which takes a core or HZ times a second."""
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
     for flag in (*FLAGS, f'--window-size={size}', f'--user-data-dir={profile}'):
         options.add_argument(flag)
     browser = webdriver.Chrome(options=options, service=Service(driver))
+    if slow_screen:
+        browser.execute_cdp_cmd(
+            'Page.addScriptToEvaluateOnNewDocument', {'source': SLOW_SCREEN})
     browser.set_page_load_timeout(SCRIPT_S)
     browser.set_script_timeout(SCRIPT_S)
     browser.command_executor.client_config.timeout = 2.0 * SCRIPT_S
@@ -84,6 +91,16 @@ class Page:
         """Return the thumb of a slider."""
         return self.browser.find_element(
             By.XPATH, f'//body//label[contains(., "{label} [")]/following::*[@role="slider"][1]')
+
+    def look_away(self):
+        """Let the page believe that another window is in front."""
+        self.browser.execute_script(
+            'document.hasFocus = () => false; window.dispatchEvent(new Event("blur"))')
+
+    def look_back(self):
+        """Bring the page to the front again."""
+        self.browser.execute_script(
+            'delete document.hasFocus; window.dispatchEvent(new Event("focus"))')
 
     def push(self, label, key, count):
         """Press an arrow key on a slider."""
