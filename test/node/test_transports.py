@@ -19,7 +19,7 @@ from rcl_interfaces.srv import GetParameters
 import transports
 
 LOOPBACK = '0100007F'  # as in /proc/net/udp
-pytestmark = pytest.mark.alone  # losses under load are of the sender too
+pytestmark = [pytest.mark.alone, pytest.mark.robot]  # losses under load are of the sender too
 MANY = 5000            # samples, more than a socket keeps
 
 

@@ -18,7 +18,8 @@ def pytest_collection_modifyitems(items):
         return item.path.name == 'test_soak.py'
 
     for item in items:
-        if item.path.parent == Path(__file__).parent and not is_soak(item):
+        if item.path.parent == Path(__file__).parent and not (
+                is_soak(item) or item.get_closest_marker('robot')):
             item.add_marker(pytest.mark.alone)
     items.sort(key=is_soak, reverse=True)
 

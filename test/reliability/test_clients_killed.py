@@ -18,6 +18,8 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from rig import kill, MAX_AGE_S
 
+pytestmark = pytest.mark.robot
+
 
 @pytest.fixture
 def slow_maps(hand):

@@ -12,7 +12,10 @@ import signal
 from grasp_quality_msgs.msg import ResultCode
 from grasps import ANTIPODAL, CIRCLE, EIGHT
 from msg_adapters.stamps import stamp_ns
+import pytest
 from rig import kill, MAX_AGE_S, positions
+
+pytestmark = pytest.mark.robot
 
 
 def test_a_killed_publisher_is_told_and_its_successor_answered(hand, feeds):

@@ -11,8 +11,10 @@ question asked while it was dead is lost, and its client has to give it up by it
 from callers import start_callers
 from harness import Client, start_node
 from msg_adapters.stamps import stamp_ns
+import pytest
 from rig import kill, MAX_AGE_S, Record, start_feed, TASK
 
+pytestmark = pytest.mark.robot
 PARAMETERS = {'max_contact_age': MAX_AGE_S, 'task_wrench': TASK}
 
 

@@ -30,7 +30,7 @@ PORTS = range(18080, 18980)
 
 
 def open_browser(chromium, driver, profile, size='900,640', slow_screen=False):
-    """Start a headless Chromium that draws in software, which takes a core or HZ times a second."""
+    """Start a headless Chromium that draws in software: all the time, or HZ times a second."""
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
     for flag in (*FLAGS, f'--window-size={size}', f'--user-data-dir={profile}'):
