@@ -23,9 +23,9 @@ FLAGS = ('--headless=new', '--no-sandbox', '--disable-quic', '--no-first-run',
 SHARPNESS = 0.5   # pixels drawn for each of the screen: a quarter of the work without a card
 HZ = 1.0          # of that screen, where what is drawn matters and not how often
 SCRIPT_S = 120.0  # that one look at the page may take where it is drawn without a graphics card
-SLOW_SCREEN = f'''
+SLOW_SCREEN = f"""
 window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), {1000.0 / HZ});
-window.cancelAnimationFrame = clearTimeout;'''
+window.cancelAnimationFrame = clearTimeout;"""
 PORTS = range(18080, 18980)
 
 
