@@ -2,7 +2,7 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 
-# All tests; arguments go to pytest. Two files at a time first, because most tests of nodes wait;
+# All tests; arguments go to pytest. Three files at a time first, because most tests of nodes wait;
 # then, one after the other, those that need the machine for themselves (marker "alone"), and those
 # that run as on a robot (marker "robot"): with shared memory beside UDP (test/node/transports.py).
 # PYTEST may say how to start pytest (scripts/coverage.sh).
@@ -18,7 +18,7 @@ run() {
 }
 
 chosen= failed=0
-run -n 2 --dist loadfile --no-loadscope-reorder -m 'not alone and not robot' grasp_quality_hand/test test "$@"
+run -n 3 --dist loadfile --no-loadscope-reorder -m 'not alone and not robot' grasp_quality_hand/test test "$@"
 run -m alone test grasp_quality_hand/test "$@"
 mapfile -t robot < <(grep -rl --include='test_*.py' 'mark\.robot' test)
 TEST_TRANSPORTS=default run -m robot "${robot[@]}" "$@"
