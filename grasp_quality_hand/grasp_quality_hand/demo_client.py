@@ -38,6 +38,8 @@ class Heard:
     load_rate: np.ndarray = None    # (6,) its growth a second
     load_stamp: float = 0.0      # [s]
     commands: int = 0            # of efforts to the hand's joints
+    commanded: float = 0.0       # when the newest of them came, steady clock [s]
+    silence: float = 0.0         # longest time between two of them [s]
 
 
 class DemoClient:
@@ -113,8 +115,11 @@ class DemoClient:
         heard.load, heard.load_stamp = load, stamp
 
     def _on_command(self, message):
-        """Count what is commanded to the joints."""
-        self.heard.commands += 1
+        """Count what is commanded to the joints, and keep how far apart commands come."""
+        heard, now = self.heard, time.monotonic()
+        if heard.commands:
+            heard.silence = max(heard.silence, now - heard.commanded)
+        heard.commands, heard.commanded = heard.commands + 1, now
 
     def forget(self):
         """Forget everything heard."""

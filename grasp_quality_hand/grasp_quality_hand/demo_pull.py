@@ -29,6 +29,7 @@ PULLING = 90.0
 KEPT = 5                     # of so many samples one is kept for the animation
 FEW_COMMANDS = 20            # fewer may be left over from the bridge before
 PATIENCE = 0.4               # of the bridge with a busy machine: age of what it follows [s]
+TOO_RARE = 0.05              # between commands: the follower's feedback is a radian late then [s]
 FINGER_LINKS = ('link_f1_3', 'link_f2_3', 'link_f3_3')
 
 
@@ -42,6 +43,8 @@ class PullRecord:
     way : str
     alpha, held : float
         Predicted by the node, and measured [N].
+    silence : float
+        Longest time between two commands to the joints while it pulled [s].
     frames : list of Frame
 
     """
@@ -50,6 +53,7 @@ class PullRecord:
     direction: Array
     alpha: float
     held: float = 0.0
+    silence: float = 0.0
     frames: list['Frame'] = field(default_factory=list)
 
 
@@ -147,19 +151,25 @@ def _pull(client: Any, follower: Follower, grasp_object: GraspObject, cap: float
                 heard.joints, heard.object_pose, sample))
 
     client.on_contacts.append(keep)
+    client.heard.silence = 0.0
     response = client.call_while_listening(PullObject, f'{hand}/pull', PullObject.Request(
         wrench=force(direction), growth=GROWTH * record.alpha, limit=LIMIT * record.alpha),
         PULLING)
     client.on_contacts.remove(keep)
     if not response.success:
         raise DemoFailure(f'the hand did not pull: {response.message}')
-    record.held = response.held
+    record.held, record.silence = response.held, client.heard.silence
     return record
 
 
 def _table(name: str, records: list[PullRecord]) -> list[str]:
     """Return what was predicted and what was held, as lines."""
-    return ['', f'Pulls on the {name}, held with optimised forces, until it slips by 0.5 mm',
-            '  pull          predicted alpha    held load    held / predicted',
-            *(f'  {record.way:<12} {record.alpha:14.3f} N {record.held:10.3f} N '
-              f'{record.held / record.alpha:19.3f}' for record in records)]
+    lines = ['', f'Pulls on the {name}, held with optimised forces, until it slips by 0.5 mm',
+             '  pull          predicted alpha    held load    held / predicted']
+    for record in records:
+        lines.append(f'  {record.way:<12} {record.alpha:14.3f} N {record.held:10.3f} N '
+                     f'{record.held / record.alpha:19.3f}')
+        if record.silence > TOO_RARE:
+            lines.append('    the machine was busy: commands came up to '
+                         f'{1e3 * record.silence:.0f} ms apart, which tells nothing of the grasp')
+    return lines
