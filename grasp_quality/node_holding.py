@@ -5,10 +5,9 @@ Forces to hold with, live: those that balance the load and nothing else, with th
 
 ``~/contact_forces`` apply alpha times the task, as much as the hand can. A controller that holds
 an object wants ``~/holding_forces`` instead. They are computed while somebody listens, after the
-answer has been published, and are empty whenever they do not exist.
+answer has been published, and are empty whenever they do not exist or come too late: the answer
+was in time, and stays.
 """
-
-import time
 
 from grasp_quality.exceptions import GraspQualityError
 from grasp_quality.margin_forces import hold_forces
@@ -21,7 +20,7 @@ class HoldingForces:
         self._logger = logger
         self._last = None
 
-    def publish(self, outputs, quality, grasp, load, time_left_s):
+    def publish(self, outputs, quality, grasp, load, left_s):
         """
         Publish the forces that hold the load.
 
@@ -35,31 +34,28 @@ class HoldingForces:
             These contacts.
         load : (6,) array [N, N m] or None
             External wrench in the object frame.
-        time_left_s : float
-            [s]
+        left_s : callable
+            Time until contacts, load or measurements are too old [s]; raises when they are.
 
         """
         if not outputs.holding_wanted:
             self._last = None
             return
-        self._last = self._computed(grasp, load, time_left_s)
-        outputs.publish_holding(quality.header, self._last)
+        self._last = self._computed(grasp, load, left_s)
+        try:
+            outputs.publish_holding(quality.header, self._last, left_s)
+        except GraspQualityError as exc:
+            self._tell(str(exc))
+            outputs.publish_holding(quality.header, None)
 
-    def _computed(self, grasp, load, time_left_s):
-        if time_left_s <= 0.0:
-            self._tell('no time was left for them')
-            return None
+    def _computed(self, grasp, load, left_s):
         start = self._last
         if start is not None and start.grasp.names != grasp.names:
             start = None
-        deadline = time.monotonic() + time_left_s
         try:
-            held = hold_forces(grasp, load, start=start, time_limit_s=time_left_s)
+            held = hold_forces(grasp, load, start=start, time_limit_s=left_s())
         except GraspQualityError as exc:
             self._tell(str(exc))
-            return None
-        if time.monotonic() > deadline:
-            self._tell('contacts or load became stale while they were computed')
             return None
         if not held.feasible:
             self._tell('no forces inside cones, bound and joint limits hold the external wrench')

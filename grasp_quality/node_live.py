@@ -53,8 +53,8 @@ class LiveLoop:
             self._answered = True
             self._follower.published(scene.grasp, answer[0])
             if quality.result.code == ResultCode.OPTIMAL:
-                left = self._inputs.left_s()
-                self._holding.publish(self._outputs, quality, scene.grasp, load, left)
+                self._holding.publish(
+                    self._outputs, quality, scene.grasp, load, self._inputs.left_s)
             self._display.show(scene, load, quality, *answer)
             self._monitor.count(quality)
         except Exception as exc:

@@ -81,10 +81,13 @@ class Outputs:
         """Whether somebody listens to the holding forces."""
         return self._holding.get_subscription_count() > 0
 
-    def publish_holding(self, header, held):
-        """Publish HoldForces, or for None that there are none."""
-        self._holding.publish(force_array(header) if held is None else force_array(
-            header, held.grasp, held.forces, held.cone_usage))
+    def publish_holding(self, header, held, check=lambda: None):
+        """Publish HoldForces, unless ``check`` raises at the last; for None that there are none."""
+        message = force_array(header) if held is None else force_array(
+            header, held.grasp, held.forces, held.cone_usage)
+        if held is not None:
+            check()
+        self._holding.publish(message)
 
     def publish_failure(self, result, stamp, frame=''):
         """Publish a ResultCode other than OPTIMAL, stamped with its contacts' time or now."""
