@@ -82,7 +82,7 @@ class Outputs:
         return self._holding.get_subscription_count() > 0
 
     def publish_holding(self, header, held, check=lambda: None):
-        """Publish HoldForces, unless ``check`` raises at the last; for None that there are none."""
+        """Publish HoldForces unless ``check`` raises at the last; for None that there are none."""
         message = force_array(header) if held is None else force_array(
             header, held.grasp, held.forces, held.cone_usage)
         if held is not None:

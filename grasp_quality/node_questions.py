@@ -6,15 +6,17 @@ What a service is asked, read when its turn has come, and whether its answer sti
 A question is read twice where it had to wait for the thread of long ones: at once, so that what
 cannot be answered is refused at once, and anew when its turn comes, so that waiting makes nothing
 stale. When it is answered, nothing it was read from may have been replaced: parameters are those
-of now, the node was active all the time, and forces are for contacts that are not older than
-``max_contact_age``, as on the topics.
+of now, the node was active all the time, and forces are for contacts, and with
+``min_contact_force`` for measured wrenches, that are not older than ``max_contact_age``, as on the
+topics.
 """
 
 from contextlib import asynccontextmanager
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from grasp_quality.arrays import Array
 from grasp_quality.grasp import Grasp
+from grasp_quality.node_ages import Received
 from grasp_quality.node_settings import Settings
 from grasp_quality.time_limit import TimeLimit
 from msg_adapters.errors import NotActiveError, StaleContactsError
@@ -39,8 +41,10 @@ class Question(NamedTuple):
     settings : Settings
     limit : TimeLimit
         Of the whole question; waiting is part of it.
-    contacts : tuple or None
-        Live contacts and their arrival; None when the request brought its own.
+    contacts : Received or None
+        Live contacts; None when the request brought its own.
+    loaded_by : dict
+        Measured wrenches by which they are loaded, by name.
     cleared : int
         Deactivations before it was read.
 
@@ -52,7 +56,8 @@ class Question(NamedTuple):
     load: Array
     settings: Settings
     limit: TimeLimit
-    contacts: tuple[Any, int] | None
+    contacts: Received | None
+    loaded_by: dict[str, Received]
     cleared: int
 
 
@@ -95,7 +100,7 @@ class Questions:
         return Question(
             grasp, Header(stamp=stamp, frame_id=frame), transform,
             load_from(request.external_wrench, transform), self._settings(), limit, contacts,
-            inputs.cleared)
+            inputs.loaded_by if contacts else {}, inputs.cleared)
 
     def _check(self, question, has_forces):
         if question.cleared != self._inputs.cleared:
@@ -103,4 +108,4 @@ class Questions:
         if question.settings != self._settings():
             raise StaleContactsError('parameters were changed while this was computed: ask again')
         if has_forces and question.contacts is not None:
-            self._inputs.age_s(question.contacts)
+            self._inputs.check_answered(question.contacts, question.loaded_by)

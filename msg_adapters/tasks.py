@@ -12,7 +12,7 @@ from msg_adapters.errors import InvalidMessageError
 from msg_adapters.frames import Transform
 from msg_adapters.message_types import ConeFields, Framed, PolytopeFields, Wrench
 from msg_adapters.number_checks import checked_numbers, SMALLEST
-from msg_adapters.wrenches import wrench_array
+from msg_adapters.wrenches import is_zero, wrench_array
 import numpy as np
 
 WRENCH, CONE, POLYTOPE = 1, 2, 3  # these are the kinds of SetTask.srv
@@ -120,7 +120,7 @@ def _moved(wrench: Array, transform: Transform | None) -> Array:
 
 
 def _nonzero(wrench: Array, transform: Transform | None, name: str) -> Array:
-    if not np.abs(wrench).max() >= SMALLEST:
+    if is_zero(wrench):
         raise InvalidMessageError(
             f'{name} must not be zero (below {SMALLEST:g}): it has no direction to scale')
     return _moved(wrench, transform)

@@ -7,7 +7,7 @@ from typing import Any
 
 from grasp_quality.arrays import Array
 from msg_adapters.message_types import Wrench, Xyz
-from msg_adapters.number_checks import checked_numbers
+from msg_adapters.number_checks import checked_numbers, SMALLEST
 import numpy as np
 
 
@@ -35,6 +35,11 @@ def wrench_array(message: Wrench, name: str) -> Array:
     force, torque = message.force, message.torque
     return np.array(checked_numbers(
         (force.x, force.y, force.z, torque.x, torque.y, torque.z), name))
+
+
+def is_zero(wrench: Array) -> bool:
+    """Whether a wrench (6,) [N, N m] is too small to be one."""
+    return not np.abs(wrench).max() >= SMALLEST
 
 
 def to_wrench(array: Iterable[float], message: Any = None) -> Any:

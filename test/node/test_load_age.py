@@ -197,7 +197,7 @@ def test_without_a_stamp_the_sending_counts(streaming):
 
     hand.held(4.0, both)
     quality = hand.outputs.failure(STALE, hand.contacts)
-    assert '(not stamped: as sent)' in quality.result.message
+    assert '(not stamped: since it was sent' in quality.result.message
 
 
 def test_margins_need_no_load(start):
