@@ -5,11 +5,12 @@
 from grasp_quality.node_ages import Ages, Subject
 from grasp_quality.node_settings import Settings
 from grasps import pose_array
-from live_desk import Clocks, MAX_AGE_S
+from live_desk import Clocks
 from msg_adapters.errors import StaleContactsError
 import pytest
 from rclpy.time import Time
 
+MAX_AGE_S = 0.1
 SUBJECT = Subject('it is', 'max_contact_age', 'send another')
 HALF_S = MAX_AGE_S / 2
 
