@@ -5,7 +5,9 @@ The load of the live loop: the newest that came on its topic, or that was given 
 
 With ``max_load_age`` above 0 a load must be known, and one of the topic must be fresh. One that
 was given with a task was said once and does not age, until one comes on the topic; there a wrench
-of zero, which is what a request holds that says nothing of a load, is none.
+of zero, which is what a request holds that says nothing of a load, is none. One of the topic that
+is stamped before a fresh one is passed over, as contacts are; where loads do not age, the last to
+come counts.
 """
 
 from collections.abc import Callable
@@ -56,7 +58,7 @@ class Loads:
             When max_load_age is above 0 and no load counts.
 
         """
-        self.left_s()  # raises
+        self.left_s()  # for what it raises
         if self._given is not None and not self._has_age():
             return self._given
         return None if self._streamed is None else self._streamed.message
