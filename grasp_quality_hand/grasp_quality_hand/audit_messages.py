@@ -3,7 +3,7 @@
 """
 Messages of a quality node, taken apart into parts for ``force_records``.
 
-Written apart from msg_adapters on purpose: see ``force_rules``. The second argument of each is the
+Written apart from msg_adapters on purpose: see ``force_rules``. The last argument of each is the
 time the message was sent [ns].
 """
 
@@ -95,7 +95,7 @@ def read_alpha(message: Any, sent_ns: int) -> float:
     return float(message.data)
 
 
-def read_wrench(message: WrenchStamped, sent_ns: int) -> LocalWrench:
-    """Take a WrenchStamped of a contact apart."""
-    return LocalWrench(nanoseconds(message.header.stamp), message.header.frame_id,
+def read_wrench(name: str, message: WrenchStamped, sent_ns: int) -> LocalWrench:
+    """Take a WrenchStamped apart that came on the topic of a contact of this name."""
+    return LocalWrench(nanoseconds(message.header.stamp), name, message.header.frame_id,
                        six(message.wrench))

@@ -70,7 +70,12 @@ class Contacts:
                           c.friction, c.torsional_friction, c.cap) for c in self.contacts)
         joints = tuple((j.name, j.max_torque, j.gravity_torque,
                         *(column.tobytes() for column in j.columns)) for j in self.joints)
-        return self.frame, contacts, joints
+        return self.frame, self.are_poses, contacts, joints
+
+    def may_be_of(self, settings: Settings) -> bool:
+        """Tell whether a node of these parameters listens to messages of this kind."""
+        own = 'pose_array' if self.are_poses else 'contact_array'
+        return settings.contact_source in (own, '')  # '': not known
 
 
 @dataclass(frozen=True)
@@ -106,13 +111,19 @@ class Forces:
     age_s: float | None
     are_holding: bool = False
 
+    @cached_property
+    def content(self) -> Hashable:
+        """All that two messages of one stamp may differ in, as far as single wrenches go."""
+        return self.are_holding, tuple((f.name, f.wrench.tobytes()) for f in self.forces)
+
 
 @dataclass(frozen=True)
 class LocalWrench:
-    """What ``optimal_wrenches/<name>`` says, in the contact frame."""
+    """What ``optimal_wrenches/<name>`` says; it must be in the frame of that contact."""
 
     stamp: int
     name: str
+    frame: str
     wrench: Array
 
 

@@ -11,6 +11,7 @@ nothing. It sends nothing to hands.
 
 from collections.abc import Callable
 import dataclasses
+import functools
 import math
 import re
 import signal
@@ -21,18 +22,17 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PoseArray, WrenchStamped
 from grasp_quality_hand import audit_messages
-from grasp_quality_hand.audit_parts import Forces, Settings
+from grasp_quality_hand.audit_parameters import ParameterQuestions, steady_times
+from grasp_quality_hand.audit_parts import Forces
 from grasp_quality_hand.audit_sequence import Sequence
 from grasp_quality_hand.by_hand import ByHand
 from grasp_quality_hand.force_records import ForceRecords
 from grasp_quality_msgs.msg import ContactArray, ContactForceArray, GraspQuality
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent
-from rcl_interfaces.srv import GetParameters
 import rclpy
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.parameter import parameter_value_to_python
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import Float64
@@ -42,13 +42,9 @@ OUTPUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
 JUDGE_PERIOD_S = 0.2
 TAKING_S = 0.1  # of one topic in a row: a busy machine may fill it faster than it is read
 REPORT_PERIOD_S = 1.0
-ANSWER_S = 5.0  # after which an answer about parameters will not come
 PLAIN_NAME = re.compile('[A-Za-z_][A-Za-z0-9_]*')  # others make no topic
 MOST_NAMES = 256  # of contacts whose wrenches are listened to
 SHOWN = 10  # violations in a report
-LISTS = ('contact_names', 'contact_fingers')
-UNSET = (*LISTS, 'contact_source')  # read-only, and perhaps not set
-REQUIRED = tuple(f.name for f in dataclasses.fields(Settings) if f.name not in UNSET)
 
 
 class ForceAuditNode(Node):
@@ -65,18 +61,15 @@ class ForceAuditNode(Node):
                 description='how much older than max_contact_age contacts may be when forces '
                             'are sent [s]', read_only=True)).value)
         self._recent: list[str] = []
-        self._asked: dict[tuple[str, ...], Any] = {}
-        self._asked_s = self._changed_s = 0.0
-        self._settings: Settings | None = None
         self._holding = False
         self._by_hand = ByHand()
         self._takes: list[Callable[[], bool]] = []
         self._wrench_topics: set[str] = set()
         self._too_many_names = False
         self._most_publishers = 0  # of contact_forces at one time
-        self._parameter_client = self.create_client(GetParameters, f'{self.target}/get_parameters')
+        self._questions = ParameterQuestions(self, self.target, self.records.store)
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
-        self._take_from(ParameterEvent, '/parameter_events', OUTPUT, self._change)
+        self._take_from(ParameterEvent, '/parameter_events', OUTPUT, self._questions.change)
         for kind, topic, profile, read in (
                 (PoseArray, 'contact_poses', INPUT, audit_messages.read_poses),
                 (ContactArray, 'contacts', INPUT, audit_messages.read_contacts),
@@ -93,7 +86,7 @@ class ForceAuditNode(Node):
         sequence = Sequence()
 
         def store(message: Any, sent_ns: int, number: int | None) -> None:
-            now_s, sent_s = _times(sent_ns)
+            now_s, sent_s = steady_times(sent_ns)
             lost_since_s = sequence.lost_since(number, sent_s)
             try:
                 self.records.store(read(message, sent_ns), now_s, sent_s, lost_since_s)
@@ -123,7 +116,7 @@ class ForceAuditNode(Node):
             if len(self._wrench_topics) < MOST_NAMES:
                 self._wrench_topics.add(item.name)
                 self._listen(WrenchStamped, f'optimal_wrenches/{item.name}', OUTPUT,
-                             audit_messages.read_wrench)
+                             functools.partial(audit_messages.read_wrench, item.name))
             elif not self._too_many_names:
                 self._too_many_names = True
                 self.records.count.violations += 1
@@ -138,7 +131,7 @@ class ForceAuditNode(Node):
 
     def _judge(self) -> None:
         now_s = time.monotonic()  # reading takes time: what came meanwhile waits for the next
-        self._ask()
+        self._questions.ask()
         changes, *others = self._takes  # all changes of parameters, before and after the others
         for take in (changes, *others, changes):
             end_s = math.inf if take is changes else time.monotonic() + TAKING_S
@@ -150,48 +143,13 @@ class ForceAuditNode(Node):
             self._listen(ContactForceArray, 'holding_forces', OUTPUT, self._read_holding)
         self._most_publishers = max(
             self._most_publishers, self.count_publishers(f'{self.target}/contact_forces'))
-        for text in self.records.judge(now_s):
+        # a process takes longer than that to start: no other was there before the next question
+        for text in self.records.judge(now_s, self._questions.sure_s + JUDGE_PERIOD_S):
             self._tell(text)
 
     def _tell(self, text: str) -> None:
         self.get_logger().error(f'VIOLATION: {text}')
         self._recent = [*self._recent, text][-SHOWN:]
-
-    def _ask(self) -> None:
-        """Ask the node for its parameters, time and again: it may be started anew."""
-        now_s = time.monotonic()
-        if self._asked and all(asked.done() for asked in self._asked.values()):
-            found: dict[str, Any] = {}
-            for names, asked in self._asked.items():
-                found.update(zip(names, map(parameter_value_to_python, asked.result().values)))
-            # what was changed meanwhile is newer than the answer
-            if set(REQUIRED) <= set(found) and self._changed_s < self._asked_s:
-                self._hold(Settings(**{
-                    **found, **{name: tuple(found.get(name) or ()) for name in LISTS},
-                    'contact_source': found.get('contact_source') or ''}))
-            self._asked = {}
-        if self._asked and now_s > self._asked_s + ANSWER_S:
-            for asked in self._asked.values():
-                self._parameter_client.remove_pending_request(asked)
-            self._asked = {}  # an answer of a node that is gone never comes
-        if not self._asked and self._parameter_client.service_is_ready():
-            self._asked_s = now_s
-            # one that is not set takes the answers to all that were asked for with it away
-            self._asked = {names: self._parameter_client.call_async(
-                GetParameters.Request(names=names)) for names in (REQUIRED, *zip(UNSET))}
-
-    def _change(self, event: ParameterEvent, sent_ns: int, number: int | None) -> None:
-        """Note each change of parameters as it is made: many may lie between two questions."""
-        if event.node == self.target:
-            self._changed_s = time.monotonic()
-        if event.node == self.target and self._settings is not None:
-            changes = {p.name: parameter_value_to_python(p.value)
-                       for p in event.changed_parameters if p.name in REQUIRED}
-            self._hold(dataclasses.replace(self._settings, **changes), sent_ns)
-
-    def _hold(self, settings: Settings, sent_ns: int | None = None) -> None:
-        self._settings = settings
-        self.records.store(settings, *_times(sent_ns))
 
     def summary(self) -> str:
         """Say in one line what was seen."""
@@ -215,12 +173,6 @@ class ForceAuditNode(Node):
         message = DiagnosticArray(status=[status])
         message.header.stamp = self.get_clock().now().to_msg()
         self._diagnostics.publish(message)
-
-
-def _times(sent_ns: int | None) -> tuple[float, float]:
-    """Return now, and when something was sent, both by the steady clock [s]."""
-    now_s = time.monotonic()
-    return now_s, now_s if sent_ns is None else now_s - max(0.0, time.time() - 1e-9 * sent_ns)
 
 
 def main(args: list[str] | None = None) -> int:

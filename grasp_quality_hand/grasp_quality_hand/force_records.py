@@ -9,33 +9,33 @@ pass with one combination of contacts and quality of its own stamp and parameter
 which it was sent: on a busy machine it may be read long after they were replaced.
 What cannot be judged because a part never came (best effort topics may lose one) is counted apart,
 and judged by what must hold whatever that part was.
-So is an objection that rests on a quality not seen, near (``GRACE_S``) qualities known to be lost,
-or with none heard that was sent later: it may be on its way, or not read yet. For a later one a
-part waits ``LATE_S``.
+So is an objection that rests on a quality not seen, near (``NEAR_S``) qualities known to be lost,
+or with none heard that was sent later: it may be on its way, or not read yet; and one to what was
+sent when the parameters may have been others already. For both a part waits ``LATE_S``.
 """
 
 from collections import Counter, deque
+from collections.abc import Hashable
 from dataclasses import dataclass, field
 import itertools
 from typing import TypeVar
 
-from grasp_quality_hand.audit_parts import (
-    Contacts, Forces, joints_of, limits_alone, limits_of, LocalWrench, Quality, Settings)
+from grasp_quality_hand.audit_parts import Contacts, Forces, LocalWrench, Quality, Settings
+from grasp_quality_hand.audit_rules import is_among, wrong, wrong_alone
 from grasp_quality_hand.audit_sequence import Gaps
-from grasp_quality_hand.force_rules import (
-    broken_alone, broken_balance, broken_forces, broken_joints, SMALL)
+from grasp_quality_hand.audit_settings import SettingsInForce
 import numpy as np
 
 Part = TypeVar('Part')
-STAMPED = (Contacts, Forces, LocalWrench, Quality)
+STAMPED = (Contacts, Forces, Quality)  # what others are looked up in by their stamp
 
 GRACE_S = 1.0    # after which all that belongs to a message has come
+NEAR_S = 1.0     # between the sending of what belongs together
 PATIENCE_S = 20.0  # for the first parameters
-LATE_S = 5.0     # after which no later quality will come
+LATE_S = 5.0     # after which no later quality will come, and no answer about parameters
 MEMORY_S = 8.0   # parts older than this are forgotten
-SETTINGS_MEMORY_S = 60.0  # and parameters that were replaced so long ago
+LOSSES_S = 60.0  # and losses older than this
 MOST_TRIED = 200  # combinations of parts of one stamp
-OWN_CAPS = 1e3  # largest cap of a contact's own over the node's, or over any force beside it
 MOST = 20_000    # parts of one kind that are kept, whatever their age
 
 
@@ -54,10 +54,12 @@ class ForceRecords:
     def __init__(self, allowance_s: float = 0.05) -> None:
         self._allowance_s = allowance_s
         self._patience_s = np.inf
-        self._known_s = np.inf  # when the first parameters came; nobody tells those before them
-        self._own_limits = False  # contacts came that may bring limits of their own
+        self._settings = SettingsInForce()
+        self._sure_s = np.inf  # until when these are known to be all
         self._kept: dict[type, deque[tuple[float, object]]] = {}
-        self._stamped: dict[tuple[type, int], list[object]] = {}  # the same by kind and stamp
+        # The same by kind and stamp, then by content, the newest last, with how often it is kept:
+        # a frozen sensor says the same again and again.
+        self._stamped: dict[tuple[type, int], dict[Hashable, tuple[int, object]]] = {}
         self._alphas: Counter[float] = Counter()  # of the OPTIMAL qualities among them
         self._qualities = Gaps()
         self._waiting: deque[tuple[float, float, object]] = deque()  # came, sent, what
@@ -69,58 +71,69 @@ class ForceRecords:
         Keep a part (a class of audit_parts, or a float for alpha).
 
         ``now_s`` is the time of its arrival, ``sent_s`` that of its sending by the same clock, and
-        from ``lost_since_s`` on others of its kind were sent and did not come.
+        from ``lost_since_s`` on others of its kind were sent and did not come. Settings may be in
+        force from ``sent_s`` on, and those before them until ``now_s``.
 
         """
         sent_s = now_s if sent_s is None else sent_s
-        self._own_limits |= isinstance(part, Contacts) and not part.are_poses
-        kept = self._kept.setdefault(type(part), deque())
+        self._patience_s = min(self._patience_s, now_s + PATIENCE_S)
         if isinstance(part, Settings):
-            self._known_s = min(self._known_s, sent_s)
-            if not kept or kept[-1][1] != part:
-                kept.append((sent_s, part))
-        else:
-            kept.append((now_s, part))
+            self._settings.note(part, sent_s, now_s)
+            return
+        kept = self._kept.setdefault(type(part), deque())
+        kept.append((now_s, part))
         if isinstance(part, STAMPED):
-            self._stamped.setdefault((type(part), part.stamp), []).append(part)
+            same = self._stamped.setdefault((type(part), part.stamp), {})
+            times, _ = same.pop(part.content, (0, None))
+            same[part.content] = times + 1, part
         if isinstance(part, Quality) and part.optimal:
             self._alphas[part.alpha] += 1
         if isinstance(part, Quality):
             self._qualities.note(sent_s, lost_since_s)
         if len(kept) > MOST:
             self._forget(kept)
-        self._patience_s = min(self._patience_s, now_s + PATIENCE_S)
         if isinstance(part, (Forces, Quality, LocalWrench, float)):
             self._waiting.append((now_s, sent_s, part))
 
-    def judge(self, now_s: float) -> list[str]:
-        """Judge all that has waited long enough, and for the parameters; return what is wrong."""
+    def judge(self, now_s: float, sure_s: float = np.inf) -> list[str]:
+        """
+        Judge all that has waited long enough, and for the parameters; return what is wrong.
+
+        What was sent after ``sure_s`` may be of parameters that nobody has told of yet.
+
+        """
         said: list[str] = []
-        if not self._kept.get(Settings) and now_s < self._patience_s:
+        self._sure_s = sure_s
+        if self._settings.known_s == np.inf and now_s < self._patience_s:
             return said
         while self._waiting and self._is_due(now_s, *self._waiting[0][:2]):
             said += self._judge(*self._waiting.popleft())
-        for kind, kept in self._kept.items():
-            ended, memory = (1, SETTINGS_MEMORY_S) if kind is Settings else (0, MEMORY_S)
-            while len(kept) > 1 and kept[ended][0] < now_s - memory:  # the newest holds on
+        for kept in self._kept.values():
+            while len(kept) > 1 and kept[0][0] < now_s - MEMORY_S:  # the newest holds on
                 self._forget(kept)
-        self._qualities.forget(now_s - SETTINGS_MEMORY_S)
+        self._settings.forget(now_s)
+        self._qualities.forget(now_s - LOSSES_S)
         self.count.violations += len(said)
         return said
 
     def _is_due(self, now_s: float, arrived_s: float, sent_s: float) -> bool:
-        grace_s = GRACE_S if self._qualities.heard_after(sent_s) else LATE_S
-        return arrived_s <= now_s - grace_s
+        is_told = self._qualities.heard_after(sent_s) and sent_s <= self._sure_s
+        return arrived_s <= now_s - (GRACE_S if is_told else LATE_S)
 
     def _forget(self, kept: deque[tuple[float, object]]) -> None:
         _, part = kept.popleft()
         if isinstance(part, STAMPED):
             same = self._stamped[type(part), part.stamp]
-            del same[0]  # the oldest of them came first
+            times, newest = same[part.content]
+            same[part.content] = times - 1, newest
+            if times == 1:
+                del same[part.content]
             if not same:
                 del self._stamped[type(part), part.stamp]
         if isinstance(part, Quality) and part.optimal:
-            self._alphas -= Counter([part.alpha])
+            self._alphas[part.alpha] -= 1
+            if not self._alphas[part.alpha]:
+                del self._alphas[part.alpha]
 
     def _judge(self, arrived_s: float, sent_s: float, part: object) -> list[str]:
         if isinstance(part, Quality):
@@ -129,118 +142,108 @@ class ForceRecords:
                 return [f'quality is not finite: {numbers}']
             if not part.optimal and any(numbers):
                 return [f'quality is not OPTIMAL and yet holds {numbers}']
+            if part.alpha < 0.0:
+                return [f'quality: alpha is {part.alpha:.9g}']
         elif isinstance(part, float):
-            if part == 0.0 or part in self._alphas:
-                return []
-            if self._qualities.may_come(sent_s, GRACE_S) or not any(
-                    abs(since_s - arrived_s) <= GRACE_S
-                    for since_s, _ in self._kept.get(Quality, ())):
-                return self._leave('quality')  # not listening to it yet, or on its way, or lost
-            return [f'alpha {part:.9g} stands in no OPTIMAL quality']
+            return self._judge_alpha(arrived_s, sent_s, part)
         elif isinstance(part, Forces):
             return self._judge_forces(sent_s, part) if part.forces else []
-        elif isinstance(part, LocalWrench) and part.wrench.any():
+        elif isinstance(part, LocalWrench):
             return self._judge_local(sent_s, part)
         return []
 
-    def _parts(self, kind: type[Part]) -> list[Part]:
-        return [part for _, part in self._kept.get(kind, ()) if isinstance(part, kind)]
+    def _judge_alpha(self, arrived_s: float, sent_s: float, alpha: float) -> list[str]:
+        if not (np.isfinite(alpha) and alpha >= 0.0):
+            return [f'alpha is {alpha:.9g}']
+        if alpha == 0.0 or alpha in self._alphas:
+            return []
+        if self._qualities.may_come(sent_s, NEAR_S) or not any(
+                abs(since_s - arrived_s) <= NEAR_S for since_s, _ in self._kept.get(Quality, ())):
+            return self._leave('quality')  # not listening to it yet, or on its way, or lost
+        return [f'alpha {alpha:.9g} stands in no OPTIMAL quality']
 
     def _of_stamp(self, kind: type[Part], stamp: int) -> list[Part]:
-        return [p for p in self._stamped.get((kind, stamp), ()) if isinstance(p, kind)]
+        """Return those of a stamp that differ, the newest first."""
+        same = self._stamped.get((kind, stamp), {})
+        return [part for _, part in reversed(same.values()) if isinstance(part, kind)]
 
-    def _settings(self, sent_s: float) -> list[Settings]:
-        """Return those in force at some time from two grace times before on."""
-        ends = [since_s for since_s, _ in self._kept.get(Settings, ())][1:] + [np.inf]
-        return list({settings: None for end_s, settings in zip(ends, self._parts(Settings))
-                     if end_s >= sent_s - 2 * GRACE_S})
+    def _doubt(self, sent_s: float) -> str:
+        """Say why parameters of that time may be missing, if so."""
+        return ('settings of its time' if sent_s < self._settings.known_s else
+                'parameters' if sent_s > self._sure_s else '')
 
     def _judge_forces(self, sent_s: float, part: Forces) -> list[str]:
-        settings = self._settings(sent_s)
-        contacts = list({  # a frozen sensor says the same again and again
-            c.content: c for c in self._of_stamp(Contacts, part.stamp)}.values())
-        qualities = list({
-            q.content: q for q in self._of_stamp(Quality, part.stamp)}.values())
-        in_frame = [c for c in contacts if c.frame in ('', part.frame)]
         if not all(np.isfinite(force.wrench).all() for force in part.forces):
             return [f'forces of stamp {part.stamp} are not finite']
+        settings = self._settings.at(sent_s)
+        contacts = _for_any(settings, self._of_stamp(Contacts, part.stamp))
+        qualities = self._of_stamp(Quality, part.stamp)
+        in_frame = [c for c in contacts if c.frame in ('', part.frame)]
         if qualities and not any(quality.optimal for quality in qualities) \
-                and not self._qualities.may_come(sent_s, GRACE_S):
+                and not self._qualities.may_come(sent_s, NEAR_S):
             return [f'forces of stamp {part.stamp}: the quality beside them is not OPTIMAL']
+        doubt = self._doubt(sent_s)
+        known = [] if doubt else settings
         for name, found in (('parameters', settings), ('contacts', contacts),
                             ('quality', qualities), ('transform', in_frame)):
             if not found:
-                self._leave(name)
-                known = settings if sent_s >= self._known_s else []
-                return [f'forces of stamp {part.stamp}, judged without {name}: {text}'
-                        for text in self._wrong_alone(part, known)]
+                return self._leave_forces(name, part, known)
         best: list[str] | None = None
-        tried = itertools.product(in_frame[::-1], qualities[::-1], settings[::-1])
-        for parts in itertools.islice(tried, MOST_TRIED):
-            said = _wrong(part, *parts, self._allowance_s)
+        pairs = [(c, own) for c in in_frame[:MOST_TRIED + 1] for own in settings[:MOST_TRIED + 1]
+                 if c.may_be_of(own)]
+        tried = itertools.product(pairs, qualities)
+        for pair, quality in itertools.islice(tried, MOST_TRIED):
+            said = wrong(part, pair[0], quality, pair[1], self._allowance_s)
             if best is None or len(said) < len(best):
                 best = said
             if not best:
                 break
         if best and next(tried, None):  # one stamp for everything, as when nothing is stamped
-            return self._leave('stamp of its own')
-        if best and self._qualities.may_come(sent_s, GRACE_S) and not all(
-                _wrong(part, received, None, own, self._allowance_s)
-                for received, own in itertools.product(in_frame, settings)):
+            return self._leave_forces('stamp of its own', part, known)
+        if best and doubt:
+            return self._leave_forces(doubt, part, known)
+        if best and self._qualities.may_come(sent_s, NEAR_S) and not all(
+                wrong(part, received, None, own, self._allowance_s) for received, own in pairs):
             return self._leave('quality')
-        if best and sent_s < self._known_s:
-            return self._leave('settings of its time')
         self.count.judged += 1
         return [f'forces of stamp {part.stamp}: {text}' for text in best or ()]
-
-    def _wrong_alone(self, part: Forces, settings: list[Settings]) -> list[str]:
-        """Tell what is wrong with forces whatever the contacts and the quality were."""
-        if self._own_limits or not settings or any(
-                own.contact_source != 'pose_array' for own in settings):
-            sizes = [np.abs(force.wrench[:3]).max() for force in part.forces]
-            return broken_alone(part.forces, OWN_CAPS * max(
-                [*sizes, *(own.max_normal_force for own in settings)]))
-        return min((broken_alone(part.forces, own.max_normal_force) or broken_forces(
-            part.forces, limits_alone(part.forces, own), own.force_bound)
-            for own in settings), key=len)
 
     def _leave(self, missing: str) -> list[str]:
         self.count.unjudged[missing] = self.count.unjudged.get(missing, 0) + 1
         return []
 
+    def _leave_forces(self, missing: str, part: Forces, settings: list[Settings]) -> list[str]:
+        self._leave(missing)
+        return [f'forces of stamp {part.stamp}, judged without {missing}: {text}'
+                for text in wrong_alone(part, settings)]
+
     def _judge_local(self, sent_s: float, part: LocalWrench) -> list[str]:
+        topic = f'optimal_wrenches/{part.name}'
+        if part.frame != part.name:
+            return [f'{topic} of stamp {part.stamp} is in the frame {part.frame!r}']
+        if not np.isfinite(part.wrench).all():
+            return [f'{topic} of stamp {part.stamp} is not finite: {part.wrench.tolist()}']
+        if not part.wrench.any():
+            return []
         sets = [forces for forces in self._of_stamp(Forces, part.stamp) if not forces.are_holding]
-        contacts = self._of_stamp(Contacts, part.stamp)
-        settings = self._settings(sent_s)
+        settings = self._settings.at(sent_s)
+        contacts = _for_any(settings, self._of_stamp(Contacts, part.stamp))
         for name, found in (('forces', sets), ('contacts', contacts), ('parameters', settings)):
             if not found:
                 return self._leave(name)
-        for forces, received, own in itertools.product(sets, contacts, settings):
-            limits = limits_of(received, own)
-            for force in forces.forces:
-                if force.name == part.name and force.name in limits:
-                    R, cap = limits[force.name].R, limits[force.name].cap
-                    local = np.concatenate([R.T @ force.wrench[:3], R.T @ force.wrench[3:]])
-                    if np.abs(local - part.wrench).max() <= SMALL * cap:
-                        return []
-        return [f'optimal_wrenches/{part.name} of stamp {part.stamp} is not the force beside it']
+        wrenches = np.array([force.wrench for forces in sets[:MOST_TRIED]
+                             for force in forces.forces if force.name == part.name])
+        tried = itertools.product(contacts, settings)
+        if any(is_among(part, wrenches, received, own)
+               for received, own in itertools.islice(tried, MOST_TRIED)):
+            return []
+        if len(sets) > MOST_TRIED or next(tried, None):
+            return self._leave('stamp of its own')
+        doubt = self._doubt(sent_s)
+        return self._leave(doubt) if doubt else [
+            f'{topic} of stamp {part.stamp} is not the force beside it']
 
 
-def _wrong(part: Forces, contacts: Contacts, quality: Quality | None, settings: Settings,
-           allowance_s: float) -> list[str]:
-    """Tell what is wrong with forces that belong to these parts; None: any quality will do."""
-    said = []
-    if quality is not None and not quality.optimal:
-        said.append('the quality beside them is not OPTIMAL')
-    if part.age_s is not None and part.age_s > settings.max_contact_age + allowance_s:
-        said.append(f'sent {part.age_s:.4f} s after their contacts, max_contact_age is '
-                    f'{settings.max_contact_age:g} s')
-    limits = limits_of(contacts, settings)
-    said += broken_forces(part.forces, limits, settings.force_bound)
-    if said:
-        return said
-    said = broken_joints(part.forces, joints_of(contacts, list(limits)))
-    if quality is None:
-        return said
-    alpha = 0.0 if part.are_holding else quality.alpha
-    return said + broken_balance(part.forces, limits, alpha * quality.task - quality.load)
+def _for_any(settings: list[Settings], contacts: list[Contacts]) -> list[Contacts]:
+    """Return the contacts that a node of one of these parameters listens to."""
+    return [c for c in contacts if not settings or any(c.may_be_of(own) for own in settings)]

@@ -6,6 +6,7 @@ import dataclasses
 
 from grasp_quality_hand.audit_parts import (
     Contacts, Forces, LocalWrench, Quality, ReceivedContact, Settings)
+from grasp_quality_hand.force_records import ForceRecords, GRACE_S, PATIENCE_S
 from grasp_quality_hand.force_rules import Force
 import numpy as np
 
@@ -25,9 +26,19 @@ QUALITY = Quality(STAMP, True, 3.0, (3.0, 0.0, 0.0), np.array([0.0, 0.0, 1.0, 0.
 FORCES = Forces(STAMP, 'object', [LEFT_FORCE, RIGHT_FORCE], 0.01)
 NEXT = dataclasses.replace(  # what the node says of the next sample: nothing before may come still
     QUALITY, stamp=2 * STAMP, optimal=False, alpha=0.0, others=())
-LOCAL = LocalWrench(STAMP, 'left', np.array([-3.0, 0.0, 6.0, 0.0, 0.0, 0.0]))
+LOCAL = LocalWrench(STAMP, 'left', 'left', np.array([-3.0, 0.0, 6.0, 0.0, 0.0, 0.0]))
+ALL = (SETTINGS, CONTACTS, QUALITY, FORCES, 3.0, LOCAL)
 
 
 def changed(part, **fields):
     """Return a part with other values in some fields."""
     return dataclasses.replace(part, **fields)
+
+
+def judged(*parts, **options):
+    """Store parts, let time pass and return (violations, count)."""
+    records = ForceRecords(**options)
+    for i, part in enumerate(parts):
+        records.store(part, 1e-3 * i)
+    records.store(NEXT, 1.1 * GRACE_S)
+    return records.judge(2.0 * GRACE_S) + records.judge(2.0 * PATIENCE_S), records.count

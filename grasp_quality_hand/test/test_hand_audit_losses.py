@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The audit does not judge by what it cannot know: lost qualities, parameters of long before."""
 
-from audit_cases import changed, CONTACTS, FORCES, NEXT, QUALITY, RIGHT_FORCE, SETTINGS
+from audit_cases import (
+    changed, CONTACTS, FORCES, LEFT_FORCE, LOCAL, NEXT, QUALITY, RIGHT_FORCE, SETTINGS)
 from grasp_quality_hand.audit_parts import Quality
 from grasp_quality_hand.force_records import ForceRecords, GRACE_S, LATE_S
 import numpy as np
@@ -79,6 +80,90 @@ def test_forces_of_before_the_first_known_parameters_are_not_judged_by_these(sen
     said = records.judge(sent_s + 2.0 * GRACE_S)
     assert bool(said) == bool(wrong)
     assert records.count.unjudged == ({} if wrong else {'settings of its time': 1})
+
+
+PULLING = changed(FORCES, forces=[changed(LEFT_FORCE, wrench=-LEFT_FORCE.wrench), RIGHT_FORCE])
+
+
+@pytest.mark.parametrize('part, words', [
+    (np.nan, 'alpha is nan'), (np.inf, 'alpha is inf'), (-1.0, 'alpha is -1'),
+    (changed(LOCAL, wrench=np.full(6, np.nan)), 'not finite'),
+    (changed(LOCAL, wrench=np.array([0.0, 0.0, np.inf, 0.0, 0.0, 0.0])), 'not finite'),
+    (changed(LOCAL, frame='right'), "in the frame 'right'"),
+    (changed(LOCAL, frame='right', wrench=np.zeros(6)), "in the frame 'right'"),
+    (changed(QUALITY, alpha=-1.0), 'alpha is -1')])
+def test_what_may_never_be_said_is_a_violation_whatever_was_lost(part, words):
+    records = ForceRecords()
+    records.store(SETTINGS, 0.0)
+    records.store(part, 1.0)
+    said = records.judge(1.0 + 2.0 * LATE_S)
+    assert len(said) == 1 and words in said[0]
+
+
+def test_what_came_before_the_first_parameters_is_judged_by_what_always_holds():
+    records = ForceRecords()
+    for part in (CONTACTS, QUALITY, PULLING):
+        records.store(part, 0.5)
+    records.store(NEXT, 0.7)
+    records.store(SETTINGS, 1.0)
+    said = records.judge(0.5 + 2.0 * GRACE_S)
+    assert len(said) == 1 and 'it pulls' in said[0]
+    assert records.count.unjudged == {'settings of its time': 1}
+
+
+def test_where_nothing_has_a_stamp_of_its_own_what_always_holds_is_judged():
+    records = ForceRecords()
+    records.store(SETTINGS, 0.0)
+    for i in range(300):
+        records.store(changed(CONTACTS, contacts=[
+            changed(contact, position=contact.position + 1e-3 * i)
+            for contact in CONTACTS.contacts]), 1.0)
+    for part in (QUALITY, PULLING):
+        records.store(part, 1.0)
+    records.store(NEXT, 1.2)
+    said = records.judge(3.0 * GRACE_S)
+    assert len(said) == 1 and 'it pulls' in said[0]
+    assert records.count.unjudged == {'stamp of its own': 1}
+
+
+@pytest.mark.parametrize('part', [FORCES, LOCAL])
+def test_what_is_sent_when_the_parameters_may_be_others_waits_for_them(part):
+    """A node is killed and started with other parameters, and says so 4 s later."""
+    weak = changed(SETTINGS, friction_coefficient=0.1, contact_names=('other', 'right'))
+    records = ForceRecords()
+    records.store(weak, 0.0)
+    for other in (CONTACTS, QUALITY, FORCES, part):
+        records.store(other, 10.0)
+    records.store(NEXT, 10.2)
+    assert records.judge(14.0, sure_s=8.0) == [] and not records.count.judged
+    answered = SETTINGS, 14.0, 8.0
+    records.store(*answered)
+    records.store(changed(FORCES, stamp=7), 14.1)
+    assert records.judge(14.1, sure_s=13.5) == [] and records.count.judged
+    assert not records.count.unjudged
+
+
+@pytest.mark.parametrize('part', [FORCES, LOCAL])
+def test_where_parameters_are_not_told_objections_are_left(part):
+    weak = changed(SETTINGS, friction_coefficient=0.1, contact_names=('other', 'right'))
+    for sure_s, wrong in ((8.0, False), (10.0, True)):
+        records = ForceRecords()
+        records.store(weak, 0.0)
+        for other in (CONTACTS, QUALITY, FORCES, part):
+            records.store(other, 10.0)
+        records.store(NEXT, 10.2)
+        said = records.judge(10.0 + LATE_S, sure_s)
+        assert bool(said) == wrong
+        assert records.count.unjudged.get('parameters', 0) == (0 if wrong else 2)
+
+
+def test_what_pulls_is_a_violation_by_parameters_that_are_not_told_too():
+    records = ForceRecords()
+    for part in (SETTINGS, CONTACTS, QUALITY, PULLING):
+        records.store(part, 10.0)
+    records.store(NEXT, 10.2)
+    said = records.judge(10.0 + LATE_S, 8.0)
+    assert len(said) == 1 and 'it pulls' in said[0]
 
 
 def test_a_loss_of_long_before_excuses_nothing():
