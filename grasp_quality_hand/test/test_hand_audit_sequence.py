@@ -53,7 +53,7 @@ def test_two_publishers_at_once_hide_nothing():
     """With two that can be told apart by nothing, a message of one may follow the other's."""
     assert lost(1, 1, 2, 2, 3, 3)[2:] == [None] * 4
     assert lost(1, 50, 2, 51, 3, 53, 4) == [None, 0.0, -np.inf, 2.0, None, 3.0, None]
-    assert lost(1, 2, 3, 1, 2, 4)[3:] == [2.0, None, 2.0]
+    assert lost(1, 2, 3, 1, 2, 4)[3:] == [2.0, None, 4.0]
 
 
 def test_after_a_publisher_is_gone_every_gap_is_exact_again():

@@ -6,7 +6,7 @@ import copy
 import time
 
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseArray
+from geometry_msgs.msg import PoseArray, WrenchStamped
 from grasp_quality_msgs.msg import ContactForceArray, GraspQuality
 from grasps import CIRCLE, pose_array
 from harness import BEST_EFFORT, claim_domain, DEADLINE_S, start_audit
@@ -25,11 +25,11 @@ PARAMETERS = {
 class Impostor:
     """A node on the topics and with the parameters of a quality node, saying what it is given."""
 
-    def __init__(self, namespace):
+    def __init__(self, namespace, **parameters):
         self._context = Context()
         rclpy.init(context=self._context, domain_id=claim_domain()[0])
         self.node = rclpy.create_node('grasp_quality', namespace=namespace, context=self._context)
-        for name, value in PARAMETERS.items():
+        for name, value in {**PARAMETERS, **parameters}.items():
             self.node.declare_parameter(name, value)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
@@ -92,16 +92,52 @@ def stamped(parts, node):
     return copies
 
 
-def test_true_forces_pass_whoever_says_them(truth, impostor, audit):
-    """They are judged as soon as the auditor knows the parameters: its report tells."""
-    reports = []
+def say_until_judged(impostor, audit, parts, most):
+    """Publish messages at the present time until more force sets than that are judged."""
+    reports, times = [], 0
     impostor.node.create_subscription(DiagnosticArray, '/diagnostics', reports.append, 10)
     deadline = time.monotonic() + DEADLINE_S
-    while not any(status.message.startswith(tuple('123456789')) for report in reports
+    while not any(int('0' + status.message.split()[0].strip('no')) > most for report in reports
                   for status in report.status if status.hardware_id == '/impostor/grasp_quality'):
         assert time.monotonic() < deadline, audit.log()
-        impostor.say(stamped(truth, impostor.node))
+        impostor.say(stamped(parts, impostor.node))
+        times += 1
+    return times
+
+
+def test_true_forces_pass_whoever_says_them(truth, impostor, audit):
+    """They are judged as soon as the auditor knows the parameters: its report tells."""
+    say_until_judged(impostor, audit, truth, 0)
     assert audit.end() == 0, audit.log()
+
+
+def test_true_forces_pass_of_a_node_that_was_started_anew_with_other_parameters(
+        truth, impostor, audit):
+    """The one before it was asked for its parameters, and does not answer any more."""
+    said = say_until_judged(impostor, audit, truth, 0)
+    renamed = copy.deepcopy(truth)
+    for force in renamed[2].forces:
+        force.name = 'new_' + force.name
+    other = Impostor('/impostor', contact_names=['new_a', 'new_b', 'new_c'])
+    try:
+        say_until_judged(other, audit, renamed, said)
+    finally:
+        other.close()
+    assert audit.end() == 0, audit.log()
+
+
+def test_a_wrench_on_the_topic_of_another_contact_is_found(truth, impostor, audit):
+    wrench = impostor.node.create_publisher(WrenchStamped, '~/optimal_wrenches/a', 1)
+
+    def crossed():
+        parts = stamped(truth, impostor.node)
+        message = WrenchStamped(header=copy.deepcopy(parts[0].header))
+        message.header.frame_id = 'b'
+        wrench.publish(message)
+        return parts
+    impostor.say_until_found(audit, crossed)
+    assert audit.end() == 1
+    assert 'optimal_wrenches/a' in audit.log() and "in the frame 'b'" in audit.log()
 
 
 def test_an_altered_force_is_found(truth, impostor, audit):
