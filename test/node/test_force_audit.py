@@ -115,6 +115,7 @@ def test_true_forces_pass_of_a_node_that_was_started_anew_with_other_parameters(
         truth, impostor, audit):
     """The one before it was asked for its parameters, and does not answer any more."""
     said = say_until_judged(impostor, audit, truth, 0)
+    time.sleep(1.0)  # it is asked once a fifth of a second
     renamed = copy.deepcopy(truth)
     for force in renamed[2].forces:
         force.name = 'new_' + force.name
