@@ -21,7 +21,7 @@ from grasp_quality.holding import minimum_forces
 from grasp_quality.problem import assemble, VirtualContact
 from grasp_quality.solution import NO_FORCES, NO_USAGE
 from grasp_quality.status import ForceAnswer, Status
-from grasp_quality.time_limit import TimeLimit
+from grasp_quality.time_limit import Limit, TimeLimit
 from grasp_quality.wrench import as_wrench
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -64,7 +64,7 @@ class HoldForces(ForceAnswer):
 def hold_forces(grasp: Grasp, external_wrench: ArrayLike | None = None,
                 task_wrench: ArrayLike | None = None, alpha: float = 1.0,
                 cap_weight: float = 1.0, start: HoldForces | None = None,
-                time_limit_s: float | None = None) -> HoldForces:
+                time_limit_s: Limit = None) -> HoldForces:
     """
     Find the forces with the largest margin that apply exactly G x + F_ext = alpha F_task.
 

@@ -10,13 +10,18 @@ ahead, waiting would not show.
 """
 
 from collections.abc import Callable
+import math
 import time
 from typing import Any, NamedTuple
 
 from grasp_quality.node_settings import Settings
+from grasp_quality.time_limit import TimeLimit
 from msg_adapters.errors import StaleContactsError
 from msg_adapters.message_types import Stamped
 from msg_adapters.stamps import stamp_ns
+
+STALE_SOON = ('contacts, or what else ages, are too old by then: send fresh ones more often, give '
+              'the node more of the processor, or raise max_contact_age (max_load_age)')
 
 
 class Received(NamedTuple):
@@ -125,3 +130,8 @@ class Ages:
         except StaleContactsError:
             return False
         return stamp < stamp_ns(held.message.header.stamp)
+
+
+def until_stale(left_s: float, most_s: float = math.inf) -> TimeLimit:
+    """Limit a solve to ``most_s``, or to what is left until what it rests on is too old [s]."""
+    return TimeLimit(most_s) if most_s <= left_s else TimeLimit(left_s, STALE_SOON)

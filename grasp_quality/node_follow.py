@@ -29,7 +29,7 @@ class Follower:
         self.start = None    # Solution with a reserve
         self._published = None  # Grasp, forces (k, 4) in its contact frames, time [s]
 
-    def settle(self, grasp, task, load, solution, rate, time_limit_s):
+    def settle(self, grasp, task, load, solution, rate, limit):
         """
         Hold an answer back to what the hand can follow.
 
@@ -45,8 +45,8 @@ class Follower:
             Answer for these contacts.
         rate : float [N/s]
             force_rate_limit; 0 lets everything pass.
-        time_limit_s : float
-            For holding it back [s].
+        limit : TimeLimit
+            Of the whole answer.
 
         Returns
         -------
@@ -66,7 +66,7 @@ class Follower:
             forces[:, 3:]], axis=1)
         followed = follow(
             build_problem(grasp, task, load), solution, last,
-            rate * (time.monotonic() - then), TimeLimit.of(time_limit_s))
+            rate * (time.monotonic() - then), limit)
         return followed.solution, followed.limited
 
     def published(self, grasp, forces):

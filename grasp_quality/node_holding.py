@@ -11,6 +11,7 @@ was in time, and stays.
 
 from grasp_quality.exceptions import GraspQualityError
 from grasp_quality.margin_forces import hold_forces
+from grasp_quality.node_ages import until_stale
 
 
 class HoldingForces:
@@ -53,7 +54,7 @@ class HoldingForces:
         if start is not None and start.grasp.names != grasp.names:
             start = None
         try:
-            held = hold_forces(grasp, load, start=start, time_limit_s=left_s())
+            held = hold_forces(grasp, load, start=start, time_limit_s=until_stale(left_s()))
         except GraspQualityError as exc:
             self._tell(str(exc))
             return None

@@ -13,6 +13,7 @@ import time
 
 from grasp_quality.governing import governing
 from grasp_quality.measures import evaluate
+from grasp_quality.node_ages import until_stale
 from grasp_quality.node_follow import Follower
 from grasp_quality.node_quantile import live_quantile
 from grasp_quality.node_scene import measured_margin
@@ -96,21 +97,20 @@ class LiveLoop:
         started = time.perf_counter()
         task, load = self._task_and_load(scene)
         # the watchdog cannot bark during a solve, which must end before contacts or load are stale
-        limit = min(settings.solver_time_limit, self._inputs.left_s())
+        limit = until_stale(self._inputs.left_s(), settings.solver_time_limit)
         solution = evaluate(scene.grasp, task, load, settings.barrier_weight, limit,
                             settings.alpha_reserve, self._follower.start)
         solution, wrench = governing(task, solution)
         single = task if isinstance(task, TaskCone) else TaskWrench(wrench)
         solution, limited = self._follower.settle(
-            scene.grasp, single, load, solution, settings.force_rate_limit,
-            limit - (time.perf_counter() - started))
+            scene.grasp, single, load, solution, settings.force_rate_limit, limit)
         if single is task:
             solution, wrench = governing(task, solution)
         solve_time = time.perf_counter() - started
         margin = measured_margin(scene)
         quantile, reason = {}, ''
         if solution.feasible:
-            left = min(limit - solve_time, self._inputs.left_s())
+            left = min(settings.solver_time_limit - solve_time, self._inputs.left_s())
             quantile, reason = live_quantile(scene, task, load, settings, left)
         result = status_result(solution.status, remark=solution.remark)
         result.message = result.message or reason

@@ -22,11 +22,13 @@ class TimeLimit:
     ----------
     seconds : float
         From now [s].
+    way_out : str
+        End of the sentence when it is over.
 
     """
 
-    def __init__(self, seconds: float) -> None:
-        self._seconds = seconds
+    def __init__(self, seconds: float, way_out: str = 'raise it or ask for less') -> None:
+        self._seconds, self._way_out = seconds, way_out
         self._end = time.monotonic() + seconds
 
     @classmethod
@@ -62,7 +64,7 @@ class TimeLimit:
         left = self._end - time.monotonic()
         if left <= 0.0:
             raise SolverTimeoutError(
-                f'the time limit of {self._seconds:g} s is over: raise it or ask for less',
+                f'the time limit of {self._seconds:g} s is over: {self._way_out}',
                 problem, 'MaxTime')
         return left
 

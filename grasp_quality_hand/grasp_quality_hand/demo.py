@@ -141,8 +141,11 @@ def _show(client, children, grasp_object, output):
           flush=True)
     records = show_pulls(client, children, grasp_object, CAP, HAND, output)
     animation = output / f'{name}_pull.gif'
-    draw_pull(animation, grasp_object, records[0])
-    print(f'Animation: {animation}', flush=True)
+    if records[0].frames:
+        draw_pull(animation, grasp_object, records[0])
+        print(f'Animation: {animation}', flush=True)
+    else:
+        print('No animation: the pull was over before a sample of it was heard', flush=True)
 
 
 def _slip_margins(grasp):

@@ -164,7 +164,8 @@ def _pull(client: Any, follower: Follower, grasp_object: GraspObject, cap: float
 
 def _table(name: str, records: list[PullRecord]) -> list[str]:
     """Return what was predicted and what was held, as lines."""
-    lines = ['', f'Pulls on the {name}, held with optimised forces, until it slips by 0.5 mm',
+    lines = ['', f'Pulls on the {name}, held with optimised forces, until it slips by 0.5 mm;',
+             'a pull along -y is met by forces along +y, one down by a lift beside the weight',
              '  pull          predicted alpha    held load    held / predicted']
     for record in records:
         lines.append(f'  {record.way:<12} {record.alpha:14.3f} N {record.held:10.3f} N '

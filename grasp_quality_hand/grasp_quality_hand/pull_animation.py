@@ -36,13 +36,14 @@ def draw_pull(path: Path, grasp_object: GraspObject, record: PullRecord) -> None
     grasp_object : GraspObject
         What is held.
     record : PullRecord
-        The pull.
+        The pull, of one frame at least.
 
     """
     hand = build_hand_model(grasp_object)
     data = mujoco.MjData(hand.mujoco)
-    early = np.linspace(0, len(record.frames) - LAST_FRAMES - 1, FRAMES).astype(int)
-    chosen = [*early, *range(len(record.frames) - LAST_FRAMES, len(record.frames))]
+    last = max(0, len(record.frames) - LAST_FRAMES)
+    early = np.linspace(0, last, FRAMES, endpoint=False).astype(int) if last else []
+    chosen = [*early, *range(last, len(record.frames))]
     pictures = [_picture(hand, data, grasp_object, record, index) for index in chosen]
     pictures[0].save(path, save_all=True, append_images=pictures[1:], loop=0,
                      duration=[PERIOD_MS] * (len(pictures) - 1) + [LAST_MS])

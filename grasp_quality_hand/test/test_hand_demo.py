@@ -17,6 +17,7 @@ from grasp_quality_hand.demo_processes import executable
 import pytest
 from transports import FILE
 
+pytestmark = pytest.mark.alone
 DEADLINE = 300.0             # for a run with one object, however busy the machine [s]
 PNG = b'\x89PNG\r\n\x1a\n'
 

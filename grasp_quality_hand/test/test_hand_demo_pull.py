@@ -1,10 +1,17 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the demo says of its pulls: a hand that was not commanded in time tells nothing."""
+"""What the demo says and draws of pulls on a hand that is not commanded in time."""
 
 from types import SimpleNamespace
 
+from geometry_msgs.msg import PoseStamped
 from grasp_quality_hand import demo_client, demo_pull
+from grasp_quality_hand.grasp_objects import OBJECTS
+from grasp_quality_hand.hand_model import build_hand_model
+from grasp_quality_hand.measured_grasp import MeasuredGrasp
+from grasp_quality_hand.pull_animation import draw_pull, FRAMES, LAST_FRAMES
+import numpy as np
+from PIL import Image
 import pytest
 
 
@@ -29,3 +36,18 @@ def test_a_pull_with_rare_commands_is_said_to_tell_nothing_of_the_grasp(silence,
     text = '\n'.join(demo_pull._table('cube', [record]))
     assert '0.020' in text
     assert ('up to 420 ms apart' in text and 'nothing of the grasp' in text) == busy
+
+
+@pytest.mark.parametrize('samples', [1, LAST_FRAMES, LAST_FRAMES + 2])
+def test_a_pull_that_is_over_soon_is_drawn_too(tmp_path, samples):
+    cube = OBJECTS['cube']
+    names = build_hand_model(cube).joint_names
+    measured = MeasuredGrasp(('a', 'b', 'c'), cube.contact_points, np.tile(np.eye(3), (3, 1, 1)),
+                             np.zeros((3, 4)), np.zeros(3))
+    joints = SimpleNamespace(name=names, position=[0.0] * len(names))
+    frames = [demo_pull.Frame(0.1 * i, 0.0, joints, PoseStamped(), measured)
+              for i in range(samples)]
+    record = demo_pull.PullRecord('down', np.array([0.0, 0.0, -1.0]), 20.0, frames=frames)
+    draw_pull(tmp_path / 'pull.gif', cube, record)
+    with Image.open(tmp_path / 'pull.gif') as picture:
+        assert 1 <= picture.n_frames <= FRAMES + LAST_FRAMES

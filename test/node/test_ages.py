@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """How old a message is, by the clock of arrival, the ROS clock and the clock of its sender."""
 
-from grasp_quality.node_ages import Ages, Subject
+from grasp_quality import SolverTimeoutError
+from grasp_quality.node_ages import Ages, Subject, until_stale
 from grasp_quality.node_settings import Settings
 from grasps import pose_array
 from live_desk import Clocks
@@ -89,3 +90,10 @@ def test_without_a_time_of_sending_arrival_counts():
     received = post.ages.received(pose_array([]), None)
     post.clocks.wait(HALF_S)
     assert post.age_s(received) == pytest.approx(HALF_S)
+
+
+@pytest.mark.parametrize('left_s, most_s, words', [
+    (1e-9, 1.0, 'raise max_contact_age'), (1.0, 1e-9, 'raise it or ask for less')])
+def test_a_time_limit_names_what_is_to_be_raised(left_s, most_s, words):
+    with pytest.raises(SolverTimeoutError, match=f'limit of 1e-09 s is over: .*{words}'):
+        until_stale(left_s, most_s).remaining_s()
