@@ -14,7 +14,6 @@ import time
 
 from grasp_quality.follow import follow
 from grasp_quality.problem import build_problem
-from grasp_quality.time_limit import TimeLimit
 import numpy as np
 
 
