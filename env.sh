@@ -11,7 +11,11 @@ if [ -z "${BASH_VERSION:-}${ZSH_VERSION:-}" ]; then
     return 1
 fi
 grasp_quality_root=$(builtin cd "$(dirname "${BASH_SOURCE[0]:-${(%):-%x}}")" && pwd)
-if [ -f "$grasp_quality_root/install/setup.bash" ]; then
+if [ -f "$grasp_quality_root/install/setup.bash" ] && [ ! -f "$grasp_quality_root/.venv/compiled" ]; then
+    echo "error: the set-up of $grasp_quality_root is not complete: wait for make setup, or run it again" >&2
+    unset grasp_quality_root
+    return 1
+elif [ -f "$grasp_quality_root/install/setup.bash" ]; then
     . "$grasp_quality_root/.venv/bin/activate"
     . "$grasp_quality_root/install/setup.${ZSH_VERSION:+z}${BASH_VERSION:+ba}sh"
     export GRASP_QUALITY_DCLAW_DIR="$grasp_quality_root/.venv/share/dclaw"

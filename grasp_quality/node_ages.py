@@ -20,6 +20,7 @@ from msg_adapters.errors import StaleContactsError
 from msg_adapters.message_types import Stamped
 from msg_adapters.stamps import stamp_ns
 
+ASK_FOR_LESS = 'raise solver_time_limit or ask for less'
 STALE_SOON = ('contacts, or what else ages, are too old by then: send fresh ones more often, give '
               'the node more of the processor, or raise max_contact_age (max_load_age)')
 
@@ -134,4 +135,4 @@ class Ages:
 
 def until_stale(left_s: float, most_s: float = math.inf) -> TimeLimit:
     """Limit a solve to ``most_s``, or to what is left until what it rests on is too old [s]."""
-    return TimeLimit(most_s) if most_s <= left_s else TimeLimit(left_s, STALE_SOON)
+    return TimeLimit(most_s, ASK_FOR_LESS) if most_s <= left_s else TimeLimit(left_s, STALE_SOON)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from grasp_quality.arrays import Array
 from grasp_quality.grasp import Grasp
-from grasp_quality.node_ages import Received
+from grasp_quality.node_ages import ASK_FOR_LESS, Received
 from grasp_quality.node_settings import Settings
 from grasp_quality.time_limit import TimeLimit
 from msg_adapters.errors import NotActiveError, StaleContactsError
@@ -73,7 +73,7 @@ class Questions:
     @asynccontextmanager
     async def asked(self, request, response, waits=lambda grasp: True):
         """Give the Question of a request; ``waits(grasp)``: whether it needs the thread."""
-        limit = TimeLimit.of(self._settings().solver_time_limit)
+        limit = TimeLimit(self._settings().solver_time_limit, ASK_FOR_LESS)
         question = self._read(request, limit)
         if waits(question.grasp):
             waited = await self._worker.take()

@@ -53,3 +53,8 @@ def is_among(part: LocalWrench, wrenches: Array, contacts: Contacts, settings: S
         return False
     local = (wrenches.reshape(-1, 2, 3) @ limits.R).reshape(-1, 6)
     return bool((np.abs(local - part.wrench).max(axis=1) <= SMALL * limits.cap).any())
+
+
+def that_count(settings: Sequence[Settings], contacts: Sequence[Contacts]) -> list[Contacts]:
+    """Return the contacts that a node of one of these parameters listens to."""
+    return [c for c in contacts if not settings or any(c.may_be_of(own) for own in settings)]

@@ -11,7 +11,8 @@ What cannot be judged because a part never came (best effort topics may lose one
 and judged by what must hold whatever that part was.
 So is an objection that rests on a quality not seen, near (``NEAR_S``) qualities known to be lost,
 or with none heard that was sent later: it may be on its way, or not read yet; and one to what was
-sent when the parameters may have been others already. For both a part waits ``LATE_S``.
+sent when the parameters may have been others already. For both a part waits ``LATE_S``. So is one
+to what was read ``UNREAD_S`` after it was sent: what it belongs to may be forgotten.
 """
 
 from collections import Counter, deque
@@ -21,7 +22,7 @@ import itertools
 from typing import TypeVar
 
 from grasp_quality_hand.audit_parts import Contacts, Forces, LocalWrench, Quality, Settings
-from grasp_quality_hand.audit_rules import is_among, wrong, wrong_alone
+from grasp_quality_hand.audit_rules import is_among, that_count, wrong, wrong_alone
 from grasp_quality_hand.audit_sequence import Gaps
 from grasp_quality_hand.audit_settings import SettingsInForce
 import numpy as np
@@ -33,7 +34,8 @@ GRACE_S = 1.0    # after which all that belongs to a message has come
 NEAR_S = 1.0     # between the sending of what belongs together
 PATIENCE_S = 20.0  # for the first parameters
 LATE_S = 5.0     # after which no later quality will come, and no answer about parameters
-MEMORY_S = 8.0   # parts older than this are forgotten
+MEMORY_S = 8.0   # parts that came longer ago are forgotten: longer than any waits
+UNREAD_S = MEMORY_S - LATE_S  # what a part belongs to is there if this had not waited longer
 LOSSES_S = 60.0  # and losses older than this
 MOST_TRIED = 200  # combinations of parts of one stamp
 MOST = 20_000    # parts of one kind that are kept, whatever their age
@@ -147,9 +149,9 @@ class ForceRecords:
         elif isinstance(part, float):
             return self._judge_alpha(arrived_s, sent_s, part)
         elif isinstance(part, Forces):
-            return self._judge_forces(sent_s, part) if part.forces else []
+            return self._judge_forces(arrived_s, sent_s, part) if part.forces else []
         elif isinstance(part, LocalWrench):
-            return self._judge_local(sent_s, part)
+            return self._judge_local(arrived_s, sent_s, part)
         return []
 
     def _judge_alpha(self, arrived_s: float, sent_s: float, alpha: float) -> list[str]:
@@ -157,6 +159,8 @@ class ForceRecords:
             return [f'alpha is {alpha:.9g}']
         if alpha == 0.0 or alpha in self._alphas:
             return []
+        if arrived_s > sent_s + UNREAD_S:
+            return self._leave('parts of its time')
         if self._qualities.may_come(sent_s, NEAR_S) or not any(
                 abs(since_s - arrived_s) <= NEAR_S for since_s, _ in self._kept.get(Quality, ())):
             return self._leave('quality')  # not listening to it yet, or on its way, or lost
@@ -167,22 +171,23 @@ class ForceRecords:
         same = self._stamped.get((kind, stamp), {})
         return [part for _, part in reversed(same.values()) if isinstance(part, kind)]
 
-    def _doubt(self, sent_s: float) -> str:
-        """Say why parameters of that time may be missing, if so."""
-        return ('settings of its time' if sent_s < self._settings.known_s else
+    def _doubt(self, arrived_s: float, sent_s: float) -> str:
+        """Say what of that time may be missing, if so."""
+        return ('parts of its time' if arrived_s > sent_s + UNREAD_S else
+                'settings of its time' if sent_s < self._settings.known_s else
                 'parameters' if sent_s > self._sure_s else '')
 
-    def _judge_forces(self, sent_s: float, part: Forces) -> list[str]:
+    def _judge_forces(self, arrived_s: float, sent_s: float, part: Forces) -> list[str]:
         if not all(np.isfinite(force.wrench).all() for force in part.forces):
             return [f'forces of stamp {part.stamp} are not finite']
         settings = self._settings.at(sent_s)
-        contacts = _for_any(settings, self._of_stamp(Contacts, part.stamp))
+        contacts = that_count(settings, self._of_stamp(Contacts, part.stamp))
         qualities = self._of_stamp(Quality, part.stamp)
         in_frame = [c for c in contacts if c.frame in ('', part.frame)]
-        if qualities and not any(quality.optimal for quality in qualities) \
-                and not self._qualities.may_come(sent_s, NEAR_S):
+        doubt = self._doubt(arrived_s, sent_s)
+        is_one_unseen = arrived_s > sent_s + UNREAD_S or self._qualities.may_come(sent_s, NEAR_S)
+        if qualities and not any(q.optimal for q in qualities) and not is_one_unseen:
             return [f'forces of stamp {part.stamp}: the quality beside them is not OPTIMAL']
-        doubt = self._doubt(sent_s)
         known = [] if doubt else settings
         for name, found in (('parameters', settings), ('contacts', contacts),
                             ('quality', qualities), ('transform', in_frame)):
@@ -202,7 +207,7 @@ class ForceRecords:
             return self._leave_forces('stamp of its own', part, known)
         if best and doubt:
             return self._leave_forces(doubt, part, known)
-        if best and self._qualities.may_come(sent_s, NEAR_S) and not all(
+        if best and is_one_unseen and not all(
                 wrong(part, received, None, own, self._allowance_s) for received, own in pairs):
             return self._leave('quality')
         self.count.judged += 1
@@ -217,7 +222,7 @@ class ForceRecords:
         return [f'forces of stamp {part.stamp}, judged without {missing}: {text}'
                 for text in wrong_alone(part, settings)]
 
-    def _judge_local(self, sent_s: float, part: LocalWrench) -> list[str]:
+    def _judge_local(self, arrived_s: float, sent_s: float, part: LocalWrench) -> list[str]:
         topic = f'optimal_wrenches/{part.name}'
         if part.frame != part.name:
             return [f'{topic} of stamp {part.stamp} is in the frame {part.frame!r}']
@@ -227,7 +232,7 @@ class ForceRecords:
             return []
         sets = [forces for forces in self._of_stamp(Forces, part.stamp) if not forces.are_holding]
         settings = self._settings.at(sent_s)
-        contacts = _for_any(settings, self._of_stamp(Contacts, part.stamp))
+        contacts = that_count(settings, self._of_stamp(Contacts, part.stamp))
         for name, found in (('forces', sets), ('contacts', contacts), ('parameters', settings)):
             if not found:
                 return self._leave(name)
@@ -239,11 +244,6 @@ class ForceRecords:
             return []
         if len(sets) > MOST_TRIED or next(tried, None):
             return self._leave('stamp of its own')
-        doubt = self._doubt(sent_s)
+        doubt = self._doubt(arrived_s, sent_s)
         return self._leave(doubt) if doubt else [
             f'{topic} of stamp {part.stamp} is not the force beside it']
-
-
-def _for_any(settings: list[Settings], contacts: list[Contacts]) -> list[Contacts]:
-    """Return the contacts that a node of one of these parameters listens to."""
-    return [c for c in contacts if not settings or any(c.may_be_of(own) for own in settings)]

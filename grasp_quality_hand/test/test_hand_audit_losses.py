@@ -5,10 +5,14 @@
 from audit_cases import (
     changed, CONTACTS, FORCES, LEFT_FORCE, LOCAL, NEXT, QUALITY, RIGHT_FORCE, SETTINGS)
 from grasp_quality_hand.audit_parts import Quality
-from grasp_quality_hand.force_records import ForceRecords, GRACE_S, LATE_S
+from grasp_quality_hand.force_records import ForceRecords, GRACE_S, LATE_S, MEMORY_S, UNREAD_S
 import numpy as np
 import pytest
 
+SHARE = 5.9 / 6.0
+LESS = [changed(QUALITY, alpha=2.9), changed(FORCES, forces=[
+    changed(force, wrench=force.wrench * (1.0, 1.0, SHARE, 1.0, 1.0, 1.0), cone_usage=SHARE)
+    for force in FORCES.forces])]
 FAILURE = changed(QUALITY, optimal=False, alpha=0.0, others=(0.0,))
 
 
@@ -174,3 +178,34 @@ def test_a_loss_of_long_before_excuses_nothing():
         records.store(part, 3.0)
     records.store(NEXT, 3.2)
     assert records.judge(3.0 + 2.0 * GRACE_S) == ['alpha 4 stands in no OPTIMAL quality']
+
+
+@pytest.mark.parametrize('parts, late', [
+    ([QUALITY], 3.0),
+    ([CONTACTS, QUALITY], FORCES),
+    ([CONTACTS, QUALITY, FORCES], LOCAL)])
+@pytest.mark.parametrize('again', [[FAILURE], LESS])
+def test_what_was_read_late_may_belong_to_what_is_forgotten(parts, late, again):
+    """All of it is true; the same sample was evaluated once more since."""
+    records = ForceRecords()
+    records.store(SETTINGS, 0.0)
+    for part in parts:
+        records.store(part, 1.0)
+    now_s = 1.0 + MEMORY_S
+    records.store(CONTACTS, now_s - 0.1)
+    for part in again:
+        records.store(part, now_s - 0.1)
+    assert records.judge(now_s + 0.1) == []  # forgets
+    records.store(late, now_s, 1.0)
+    records.store(changed(NEXT, stamp=NEXT.stamp + 1), now_s + 0.2)
+    assert records.judge(now_s + LATE_S + 1.0) == [] and records.count.violations == 0
+
+
+def test_what_is_never_true_is_told_however_late_it_was_read():
+    pulls = changed(FORCES, forces=[
+        changed(LEFT_FORCE, wrench=-LEFT_FORCE.wrench), changed(RIGHT_FORCE)])
+    for part in (-1.0, np.nan, pulls, changed(LOCAL, wrench=np.full(6, np.nan))):
+        records = ForceRecords()
+        records.store(SETTINGS, 0.0)
+        records.store(part, 2.0 + UNREAD_S, 1.0)
+        assert len(records.judge(2.0 + UNREAD_S + LATE_S)) == 1

@@ -18,6 +18,7 @@ def clone(tmp_path):
     for file in ('.venv/bin/activate', 'install/setup.bash'):
         (tmp_path / file).parent.mkdir(parents=True)
         (tmp_path / file).write_text('')
+    (tmp_path / '.venv' / 'compiled').touch()
     for package, program in (('grasp_quality', 'grasp-quality'), ('grasp_quality_hand', 'demo'),
                              ('grasp_quality_hand', 'force_to_effort')):
         path = tmp_path / 'install' / package / 'lib' / package / program
@@ -54,6 +55,13 @@ def test_without_a_build_it_says_what_to_do(clone):
     shutil.rmtree(clone / 'install')
     code, _, complaint = shell('bash', '. ./env.sh', clone)
     assert code == 1 and 'run make setup first' in complaint
+
+
+def test_a_set_up_that_is_not_complete_is_not_entered(clone):
+    """The node would be there, and mute while it compiles."""
+    (clone / '.venv' / 'compiled').unlink()
+    code, _, complaint = shell('bash', '. ./env.sh', clone)
+    assert code == 1 and 'is not complete' in complaint and 'make setup' in complaint
 
 
 def test_another_shell_is_named_as_the_reason(clone):

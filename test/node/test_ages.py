@@ -93,7 +93,7 @@ def test_without_a_time_of_sending_arrival_counts():
 
 
 @pytest.mark.parametrize('left_s, most_s, words', [
-    (1e-9, 1.0, 'raise max_contact_age'), (1.0, 1e-9, 'raise it or ask for less')])
+    (1e-9, 1.0, 'raise max_contact_age'), (1.0, 1e-9, 'raise solver_time_limit')])
 def test_a_time_limit_names_what_is_to_be_raised(left_s, most_s, words):
     with pytest.raises(SolverTimeoutError, match=f'limit of 1e-09 s is over: .*{words}'):
         until_stale(left_s, most_s).remaining_s()
