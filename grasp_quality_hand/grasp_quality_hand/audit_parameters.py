@@ -30,7 +30,7 @@ class ParameterQuestions:
     def __init__(self, node: Node, target: str,
                  store: Callable[[Settings, float, float], object]) -> None:
         self.sure_s = 0.0
-        self._target, self._store = target, store
+        self._target, self._store, self._logger = target, store, node.get_logger()
         self._asked: dict[tuple[str, ...], Any] = {}
         self._asked_s = self._changed_s = 0.0
         self._settings: Settings | None = None
@@ -65,6 +65,8 @@ class ParameterQuestions:
         """Take an answer; what was changed since it was asked for is newer."""
         if settings != self._settings and self._changed_s >= self._asked_s:
             return
+        if self._settings is None:
+            self._logger.info(f'{self._target} has told its parameters')
         self._store(settings, now_s, now_s if self._settings is None else self.sure_s)
         self._settings, self.sure_s = settings, self._asked_s
 

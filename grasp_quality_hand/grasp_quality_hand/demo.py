@@ -141,11 +141,12 @@ def _show(client, children, grasp_object, output):
           flush=True)
     records = show_pulls(client, children, grasp_object, CAP, HAND, output)
     animation = output / f'{name}_pull.gif'
-    if records[0].frames:
-        draw_pull(animation, grasp_object, records[0])
+    drawn = next((record for record in records if record.frames), None)
+    if drawn is not None:
+        draw_pull(animation, grasp_object, drawn)
         print(f'Animation: {animation}', flush=True)
     else:
-        print('No animation: the pull was over before a sample of it was heard', flush=True)
+        print('No animation: no pull lasted until a sample of it was heard', flush=True)
 
 
 def _slip_margins(grasp):

@@ -55,7 +55,7 @@ class DemoRun:
             self._said += line
             if text in line:
                 return line
-        raise AssertionError(f'the demo ended without saying {text!r}')
+        raise AssertionError(f'the demo ended without saying {text!r}; it said:\n{self._said}')
 
     def end(self):
         """Return exit code and output, once the demo has ended."""
@@ -113,7 +113,8 @@ def test_demo_prints_and_draws_and_leaves_nothing_behind(ended):
         assert heading in output
     for picture in ('cube_grasp.png', 'cube_force_map.png'):
         assert (run.output / picture).read_bytes().startswith(PNG)
-    assert (run.output / 'cube_pull.gif').read_bytes().startswith(b'GIF89a')
+    if 'No animation' not in output:  # as on a machine too busy for any pull
+        assert (run.output / 'cube_pull.gif').read_bytes().startswith(b'GIF89a')
     assert run.processes() == []
 
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 from geometry_msgs.msg import PoseStamped
 from grasp_quality_hand import demo_client, demo_pull
+from grasp_quality_hand.demo_processes import DemoFailure
 from grasp_quality_hand.grasp_objects import OBJECTS
 from grasp_quality_hand.hand_model import build_hand_model
 from grasp_quality_hand.measured_grasp import MeasuredGrasp
@@ -36,6 +37,29 @@ def test_a_pull_with_rare_commands_is_said_to_tell_nothing_of_the_grasp(silence,
     text = '\n'.join(demo_pull._table('cube', [record]))
     assert '0.020' in text
     assert ('up to 420 ms apart' in text and 'nothing of the grasp' in text) == busy
+
+
+@pytest.mark.parametrize('silence, busy', [(0.049, False), (0.42, True)])
+def test_an_object_that_is_not_held_still_is_a_fault_unless_the_machine_was_busy(
+        monkeypatch, silence, busy):
+    def listen_until(condition, deadline, complaint):
+        if 'still' in complaint:
+            client.heard.silence = silence
+            raise DemoFailure(complaint)
+
+    client = SimpleNamespace(
+        heard=demo_client.Heard(silence=3.0), listen_until=listen_until,
+        ask=lambda *request: (SimpleNamespace(alpha=20.0), 0.001))
+    measured = SimpleNamespace(weight=np.zeros(3))
+    monkeypatch.setattr(demo_pull, 'newest_sample', lambda client: measured)
+    follower = SimpleNamespace(take=lambda *what: None, blend=lambda: None)
+    pull = (client, follower, OBJECTS['cube'], 10.0, '/hand', 'down')
+    if not busy:
+        with pytest.raises(DemoFailure, match='hold the object still'):
+            demo_pull._pull(*pull)
+        return
+    text = '\n'.join(demo_pull._table('cube', [demo_pull._pull(*pull)]))
+    assert 'not pulled' in text and 'up to 420 ms apart' in text and '20.000 N' in text
 
 
 @pytest.mark.parametrize('samples', [1, LAST_FRAMES, LAST_FRAMES + 2])

@@ -46,6 +46,7 @@ def begun_nodes(tmp_path_factory):
         process.until_it_says('active')
         begun[-1].audit.until_it_says('listening')
         begun[-1].client = Client(namespace)
+        begun[-1].audit.until_it_says('has told its parameters')  # before it is to judge
         return begun[-1]
 
     yield begin

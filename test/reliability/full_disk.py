@@ -13,4 +13,5 @@ full = os.open('/dev/full', os.O_WRONLY)
 os.dup2(full, 1)
 os.dup2(full, 2)
 os.environ.pop('PYTHONUNBUFFERED', None)  # it hides what is left over at the end
+os.environ.pop('COVERAGE_PROCESS_CONFIG', None)  # it would end on what it cannot write
 os.execv(sys.argv[1], sys.argv[1:])  # noqa: S606
