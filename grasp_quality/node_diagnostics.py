@@ -6,6 +6,7 @@ import time
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
+from grasp_quality.node_log import Changes
 from grasp_quality_msgs.msg import ResultCode
 from msg_adapters.results import code_name
 from msg_adapters.stamps import seconds
@@ -15,12 +16,13 @@ FAULTS = (ResultCode.SOLVER_FAILED, ResultCode.TIMED_OUT, ResultCode.TRANSFORM_F
 
 
 class Monitor:
-    """Counts answers and failures, logs each change of the result code, and reports them."""
+    """Counts answers and failures, logs changes of the result code, and reports them."""
 
     def __init__(self, node):
         self._node = node
         self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._result = ResultCode()
+        self._changes = Changes(self._say)
         self._since = time.monotonic()
         self._answers = self._failures = 0
         self._slowest_s = self._oldest_s = 0.0
@@ -57,17 +59,19 @@ class Monitor:
                 f'{type(error).__name__}: {error}', throttle_duration_sec=1.0)
 
     def _note(self, result):
-        if result.code != self._result.code:
-            logger = self._node.get_logger()
-            text = f'{code_name(result.code)}: {result.message or "live answers are optimal"}'
-            if result.code == ResultCode.OPTIMAL:
-                logger.info(text)
-            else:
-                logger.warning(text)
+        self._changes.note(result.code, result.message or 'live answers are optimal')
         self._result = result
+
+    def _say(self, code, words):
+        logger, text = self._node.get_logger(), f'{code_name(code)}: {words}'
+        if code == ResultCode.OPTIMAL:
+            logger.info(text)
+        else:
+            logger.warning(text)
 
     def report(self, problems=(), doubts=()):
         """Publish, start counting anew; sentences on ignored inputs, and of what to be warned."""
+        self._changes.end_period()
         now = time.monotonic()
         elapsed = max(now - self._since, 1e-9)
         values = {

@@ -1,10 +1,10 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the contacts feel, and what about it is doubtful.
+What the contacts are and feel, and what about it is doubtful.
 
 The live loop only keeps what it has read; sentences are made of it when somebody reports, once a
-second. A doubt is no failure: what is doubted was measured, and counts as it was measured.
+second. A doubt is no failure: what is doubted counts as it was given.
 """
 
 from __future__ import annotations
@@ -15,8 +15,11 @@ from typing import NamedTuple
 from grasp_quality.arrays import Array
 from grasp_quality.contact_set import ContactSet
 from grasp_quality.node_settings import Settings
+import numpy as np
 
 PULLING = 0.02  # share of its cap from which a pull is no noise; min_contact_force knows better
+APART = 3.0     # [m] along an axis: contacts of hands are nearer, unless in millimetres
+MOST_FRICTION = 5.0  # soft rubber has 2
 LISTED = 8      # contacts that a sentence names
 
 
@@ -46,7 +49,7 @@ class Felt(NamedTuple):
 
 def doubts(felt: Felt, settings: Settings, heard: Container[str]) -> tuple[str, ...]:
     """
-    Say what a user should know of measured forces before trusting what is made of them.
+    Say what a user should know of contacts and forces before trusting what is made of them.
 
     Parameters
     ----------
@@ -63,7 +66,7 @@ def doubts(felt: Felt, settings: Settings, heard: Container[str]) -> tuple[str, 
 
     """
     said = (_unloaded(felt, settings.min_contact_force), _pulling(felt, settings),
-            _missing(felt, settings, heard))
+            _missing(felt, settings, heard), _apart(felt.contacts), _sticky(felt.contacts))
     return tuple(filter(None, said))
 
 
@@ -108,6 +111,19 @@ def _absence(name: str, settings: Settings, heard: Container[str]) -> str:
     if name in settings.contact_names:
         return f'none ever came on {topic}'
     return f'{topic} is not listened to: contact_names, which name these topics, lack it'
+
+
+def _apart(contacts: ContactSet) -> str:
+    apart = float(np.ptp(contacts.positions, axis=0).max())
+    return (f'contacts are {apart:.3g} m apart: positions are in metres, are these in '
+            'millimetres?') if apart > APART else ''
+
+
+def _sticky(contacts: ContactSet) -> str:
+    sticky = [f'{name} {mu:.3g}' for name, mu in zip(contacts.names, contacts.friction)
+              if mu > MOST_FRICTION]
+    return (f'friction coefficient above {MOST_FRICTION:g}: {_listed(sticky)}; it is the largest '
+            'tangential over the normal force, no angle and no percentage') if sticky else ''
 
 
 def _listed(items: list[str]) -> str:

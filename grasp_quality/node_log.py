@@ -1,7 +1,7 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Refusals in the log: each reason once a second, so that none hides another, and no flood.
+What the log says of refusals and of changes: all that is new once a second, and no flood.
 
 rclpy throttles by the line of code that logs, where one refusal hides all others for a second.
 Whoever was refused has the reason in the answer, so that the log may leave some out.
@@ -32,3 +32,36 @@ class Refusals:
         if text not in self._said and len(self._said) < MOST:
             self._said.add(text)
             self._say(text)
+
+
+class Changes:
+    """
+    Says a code and its words when it is not the one said last, and each code once a period.
+
+    Contacts that are too old now and then would fill the log. What stands when the period ends is
+    said then, so that the log is right about what lasts.
+
+    """
+
+    def __init__(self, say: Callable[[int, str], object]) -> None:
+        self._say = say
+        self._newest: tuple[int, str] | None = None
+        self._told: int | None = None
+        self._said: set[int] = set()
+
+    def note(self, code: int, words: str) -> None:
+        """Take what is so now."""
+        self._newest = code, words
+        if code not in self._said:
+            self._tell()
+
+    def end_period(self) -> None:
+        """Begin a new period."""
+        self._said.clear()
+        self._tell()
+
+    def _tell(self) -> None:
+        if self._newest is not None and self._newest[0] != self._told:
+            self._told = self._newest[0]
+            self._said.add(self._told)
+            self._say(*self._newest)

@@ -1,6 +1,6 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is doubtful about measured forces is said with contact, value, rule and way out."""
+"""What is doubtful about contacts and measured forces is said with contact, value, rule and way out."""
 
 from grasp_quality.contact import ContactModel
 from grasp_quality.contact_set import ContactSet
@@ -12,12 +12,12 @@ import pytest
 NAMES = ('left', 'right')
 
 
-def felt(*normals, names=NAMES, caps=10.0, refused=()):
+def felt(*normals, names=NAMES, caps=10.0, refused=(), side=0.01, mu=0.5):
     """Contacts with these measured normal forces; None where no fresh one came."""
     count = len(normals)
     contacts = ContactSet(
-        np.arange(3.0 * count).reshape(count, 3), np.tile(np.eye(3), (count, 1, 1)),
-        models=[ContactModel.PCWF] * count, friction=[0.5] * count,
+        side * np.arange(3.0 * count).reshape(count, 3), np.tile(np.eye(3), (count, 1, 1)),
+        models=[ContactModel.PCWF] * count, friction=[mu] * count,
         torsional_friction=[0.0] * count, max_normal_forces=[caps] * count,
         names=names[:count], fingers=names[:count])
     forces = [None if n is None else np.array([0.0, 0.0, n, 0.0]) for n in normals]
@@ -78,3 +78,19 @@ def test_a_sentence_names_some_of_many():
     names = tuple(f'tip_{i}' for i in range(50))
     text, = said(felt(*[-5.0] * 50, names=names), heard=names, names=names)
     assert 'tip_7 -5 N and 42 more' in text and 'tip_8' not in text
+
+
+@pytest.mark.parametrize('side, doubted', [(10.0, True), (1.01, True), (0.99, False)])
+def test_contacts_further_apart_than_hands_reach_may_be_in_millimetres(side, doubted):
+    texts = said(felt(5.0, 5.0, side=side))
+    assert len(texts) == doubted
+    for text in texts:
+        assert f'{3.0 * side:.3g} m apart' in text and 'in metres' in text
+
+
+@pytest.mark.parametrize('mu, doubted', [(30.0, True), (5.01, True), (5.0, False), (0.0, False)])
+def test_a_friction_coefficient_that_no_material_has_may_be_an_angle(mu, doubted):
+    texts = said(felt(5.0, None, mu=mu), heard=['left', 'right'], names=NAMES)[1:]
+    assert len(texts) == doubted
+    for text in texts:
+        assert f'left {mu:.3g}, right {mu:.3g}' in text and 'no angle' in text

@@ -1,8 +1,8 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""Refusals in the log: no reason hides another, none is repeated, and there is no flood."""
+"""The log: no reason hides another, none is repeated, and there is no flood."""
 
-from grasp_quality.node_log import MOST, PERIOD_S, Refusals
+from grasp_quality.node_log import Changes, MOST, PERIOD_S, Refusals
 
 
 def test_each_reason_is_said_once_a_period():
@@ -24,3 +24,25 @@ def test_a_flood_of_reasons_is_cut():
     time[0] = PERIOD_S
     refusals.tell('the next second')
     assert said[-1] == 'the next second'
+
+
+def test_a_code_is_said_when_it_changes():
+    said = []
+    changes = Changes(lambda code, words: said.append((code, words)))
+    for code, words in ((1, 'a'), (1, 'b'), (2, 'c')):
+        changes.note(code, words)
+        changes.end_period()
+    assert said == [(1, 'a'), (2, 'c')]
+
+
+def test_codes_that_take_turns_are_said_once_a_period_and_the_last_one_at_its_end():
+    said = []
+    changes = Changes(lambda code, words: said.append((code, words)))
+    for period in range(3):
+        for turn in range(100):
+            changes.note(1, f'one {period} {turn}')
+            changes.note(2, f'two {period} {turn}')
+        changes.note(1, f'end {period}')
+        changes.end_period()
+    assert len(said) <= 3 * 3 and said[:3] == [(1, 'one 0 0'), (2, 'two 0 0'), (1, 'end 0')]
+    assert said[-1] == (1, 'end 2')

@@ -9,7 +9,7 @@ from felt_contacts import felt_contacts
 from geometry_msgs.msg import PoseArray
 from grasp_quality_msgs import srv
 from grasp_quality_msgs.msg import ContactArray, ContactForceArray
-from grasps import ANTIPODAL, contact_array, SOLVER, wrench
+from grasps import ANTIPODAL, contact_array, pose, pose_array, SOLVER, wrench
 from harness import BEST_EFFORT
 from outputs import Outputs
 import pytest
@@ -93,6 +93,15 @@ def test_doubts_end_with_the_contacts(fingers):
     fingers.report(lambda s: 'left -5 N, right -5 N' in s.message, 'the wrong sign', pulling)
     fingers.report(lambda s: values(s)['result'] == 'STALE_CONTACTS', 'silence')
     status = fingers.report(lambda s: 'below zero' not in s.message, 'no doubts')
+    assert status.level == DiagnosticStatus.WARN
+
+
+def test_contacts_in_millimetres_are_pointed_out(fingers):
+    publisher = fingers.client.publisher(PoseArray, 'contact_poses', BEST_EFFORT)
+    far = [pose((-35.0, 0.0, 0.0), (1, 0, 0)), pose((35.0, 0.0, 0.0), (-1, 0, 0))]
+    status = fingers.report(
+        lambda s: '70 m apart' in s.message and 'millimetres' in s.message, 'a doubt about metres',
+        lambda: publisher.publish(pose_array(far, fingers.client.now())))
     assert status.level == DiagnosticStatus.WARN
 
 
