@@ -3,6 +3,7 @@
 """The examples, run as a user would run them."""
 
 from pathlib import Path
+import re
 import sys
 
 from geometry_msgs.msg import PoseArray
@@ -45,6 +46,35 @@ def test_evaluate_grasp_prints_the_answer(node, run):
     assert first.startswith('alpha = 5.0000 times the weight')
     assert left.startswith('left: +10.000') and '+5.000 N' in left and '100 %' in left
     assert right.startswith('right: -10.000') and '+5.000 N' in right
+
+
+def test_ask_everything_prints_what_can_be_worked_out_by_hand(node, run):
+    """
+    Friction 0.5 and caps of 10 N: 10 N along any surface, and 2 of them carry the weight.
+
+    A force r at an angle t to the normals needs 10 N of one finger and 10 N - r cos t of the
+    other; without torque each takes half of r sin t, so that r (sin t + cos t) <= 10 N, and the
+    least r is 10 N / sqrt(2). The weight of 2 N leaves 8 N of these.
+    """
+    process = run('ask_everything.py', node.namespace)
+    assert process.wait() == 0, process.log()
+    lift, hold, cone, sides, remaining, ball, noisy, *text = process.log().splitlines()
+    assert lift.startswith('lift: 5.0000 times')
+    assert hold.endswith('take 0.2000 of the caps')
+    best, straight, worst = numbers_of(cone)[1:]
+    assert straight == 5.0 and worst <= straight <= best
+    assert sides.startswith('lift, or 1 N to a side: 5.00, 10.00, 10.00, 10.00, 10.00; together')
+    least, most = numbers_of(remaining)[:2]
+    assert 8.0 / 2 ** 0.5 - 1e-4 < least < 6.0 and 11.9 < most <= 12.0  # upward it helps
+    lower, upper = numbers_of(ball)
+    assert lower <= 10.0 / 2 ** 0.5 + 1e-4 and 10.0 / 2 ** 0.5 - 1e-4 <= upper <= 1.0102 * lower
+    assert 3.5 < numbers_of(noisy)[1] < 5.0
+    assert any('left' in line for line in text)
+
+
+def numbers_of(line):
+    """Return the numbers in a line."""
+    return [float(number) for number in re.findall(r'\d+(?:\.\d+)?', line)]
 
 
 def test_python_only_needs_no_node(run):
