@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from grasp_quality.kinks import Uniqueness
-from grasp_quality.sensitivity import NEGLIGIBLE
+from grasp_quality.sensitivity import ALIKE, NEGLIGIBLE
 from grasp_quality.slopes import Slopes
 from grasp_quality.solution import Solution
 import numpy as np
@@ -32,11 +32,11 @@ def paragraph(solution: Solution, unique: Uniqueness, limits: tuple[str, ...], s
         f'The grasp applies {solution.alpha:.4g} times the task.']
     if remark:
         words.append(f'{remark[0].upper()}{remark[1:]}.')
-    order = [int(i) for i in np.argsort(-shares) if limits[i]]
+    order = [int(i) for i in _largest_first(shares) if limits[i]]
     listed = [f'{grasp.name_of(i)} {WAYS[limits[i]]} ({100.0 * shares[i]:.0f} %)' for i in order]
     joints = () if grasp.joint_limits is None else grasp.joint_limits.names
     listed += [f'{joints[j]} {WAYS["joint"]} ({100.0 * joint_shares[j]:.0f} %)'
-               for j in np.argsort(-joint_shares) if joint_shares[j] > NEGLIGIBLE]
+               for j in _largest_first(joint_shares) if joint_shares[j] > NEGLIGIBLE]
     if listed:
         words.append(f'It is limited by {", ".join(listed)}.')
     elif not solution.powerless:
@@ -59,6 +59,12 @@ def paragraph(solution: Solution, unique: Uniqueness, limits: tuple[str, ...], s
             f'Alpha has a kink here ({_reason(unique)}): a change one way may be worth another '
             'amount than the same change the other way, and slopes are given for both.')
     return ' '.join(words)
+
+
+def _largest_first(shares: Array) -> NDArray[np.intp]:
+    """Return the order of shares (k,), the largest first; alike ones stay, as in limited_by."""
+    most = shares.max(initial=0.0)
+    return np.argsort(-np.where(shares >= (1.0 - ALIKE) * most, most, shares), kind='stable')
 
 
 def _in_words(change: Change) -> str:

@@ -76,6 +76,7 @@ def test_equal_caps_are_a_kink_to_either_side():
     """More cap for one finger gives nothing, less takes 2 mu."""
     found = explain(antipodal(0.5), TaskWrench(FY))
     assert not found.uniqueness.smooth and 'kink' in found.text
+    assert f'limited by {found.solution.limiting_contact} by slip (50 %)' in found.text
     assert found.forward.max_force == pytest.approx([0.0, 0.0], abs=ONE_SIDED)
     assert found.backward.max_force == pytest.approx([1.0, 1.0], abs=ONE_SIDED)
 
