@@ -72,13 +72,17 @@ def test_a_stubborn_child_is_ended_too(child, monkeypatch):
     assert child(ignore + SLEEP).end() == -signal.SIGKILL
 
 
+def check_for_long(child):
+    end = time.monotonic() + DEADLINE_S
+    while time.monotonic() < end:
+        child.check()
+        time.sleep(0.01)
+
+
 def test_a_child_that_ended_is_reported_with_its_last_words(child):
     dead = child('import sys; print("the reason", flush=True); sys.exit(3)')
-    deadline = time.monotonic() + DEADLINE_S
     with pytest.raises(DemoFailure, match='exit code') as failure:
-        while time.monotonic() < deadline:  # by itself: a signal while it ends has words too
-            dead.check()
-            time.sleep(0.01)
+        check_for_long(dead)  # it ends by itself: a signal would have words too
     assert 'the reason' in str(failure.value)
 
 

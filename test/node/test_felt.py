@@ -1,6 +1,6 @@
 # Copyright 2026 The grasp_quality authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is doubtful about contacts and measured forces is said with contact, value, rule and way out."""
+"""What is doubtful about contacts and their forces is said with value, rule and way out."""
 
 from grasp_quality.contact import ContactModel
 from grasp_quality.contact_set import ContactSet
