@@ -11,6 +11,11 @@ from msg_adapters.stamps import stamp_ns
 from std_msgs.msg import Float64
 
 
+def _by_stamp(messages):
+    """Return messages by their stamp [ns], of one stamp the last."""
+    return {stamp_ns(m.header.stamp): m for m in messages}
+
+
 class Outputs:
     """Subscriptions to alpha, quality, contact_forces and optimal_wrenches of some names."""
 
@@ -60,19 +65,18 @@ class Outputs:
         return self.quality[-1].result if self.quality else 'silence'
 
     def _complete(self, begin, condition, names):
-        for quality in self.quality:
-            stamp = quality.header.stamp
-            optimal = quality.result.code == ResultCode.OPTIMAL and stamp_ns(stamp) >= begin
-            if not optimal or not condition(quality):
-                continue
-            forces = [m for m in self.forces if m.header.stamp == stamp and m.forces]
-            wrenches = {
-                name: m for name, heard in self.wrenches.items() for m in heard
-                if m.header.stamp == stamp}
-            if names and forces and [item.name for item in forces[-1].forces] != names:
-                continue
-            if forces and len(wrenches) == len(self.wrenches):
-                return SimpleNamespace(quality=quality, forces=forces[-1], wrenches=wrenches)
+        fitting = [m for m in self.quality if m.result.code == ResultCode.OPTIMAL
+                   and stamp_ns(m.header.stamp) >= begin and condition(m)]
+        if not fitting:
+            return None
+        forces = _by_stamp(m for m in self.forces if m.forces and (
+            not names or [item.name for item in m.forces] == names))
+        wrenches = {name: _by_stamp(heard) for name, heard in self.wrenches.items()}
+        for quality in fitting:
+            stamp = stamp_ns(quality.header.stamp)
+            if stamp in forces and all(stamp in heard for heard in wrenches.values()):
+                return SimpleNamespace(quality=quality, forces=forces[stamp], wrenches={
+                    name: heard[stamp] for name, heard in wrenches.items()})
         return None
 
     def _withdrawn(self):
