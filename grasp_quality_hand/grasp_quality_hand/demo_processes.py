@@ -4,6 +4,7 @@
 
 from contextlib import contextmanager
 import ctypes
+import functools
 import os
 from pathlib import Path
 import random
@@ -79,9 +80,13 @@ def signals_held():
             signal.raise_signal(received[0])
 
 
-def _end_with_parent():
-    """Ask the kernel for a SIGINT when who started this process is killed."""
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGINT)
+def _end_with_parent(parent):
+    """Ask the kernel for a SIGTERM when who started this process is killed."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)  # one that comes before the program begins counts
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    if os.getppid() != parent:
+        os._exit(1)  # it was killed before the kernel was asked
 
 
 class ChildProcess:
@@ -98,11 +103,11 @@ class ChildProcess:
     def __init__(self, name, command, log):
         self.name = name
         self._log = Path(log)
+        ask = functools.partial(_end_with_parent, os.getpid())  # takes no lock a thread may hold
         with open(self._log, 'wb') as output, signals_held():
             self._process = subprocess.Popen(
                 [str(part) for part in command], stdin=subprocess.DEVNULL, stdout=output,
-                stderr=subprocess.STDOUT, start_new_session=True,
-                preexec_fn=_end_with_parent)  # noqa: PLW1509 - takes no lock a thread may hold
+                stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=ask)  # noqa: PLW1509
             self.started.append(self)
 
     def check(self):

@@ -4,6 +4,7 @@
 
 import os
 import signal
+import subprocess
 import sys
 import time
 
@@ -12,6 +13,22 @@ from grasp_quality_hand.demo_processes import ChildProcess, claim_domain, DemoFa
 import pytest
 
 DEADLINE_S = 120.0
+KILLED_MEANWHILE = """
+import os, signal, sys, threading, time
+from grasp_quality_hand import demo_processes
+ask = demo_processes._end_with_parent
+
+def ask_slowly(parent):
+    if sys.argv[1] == 'before':
+        time.sleep(2.0)
+    ask(parent)
+    if sys.argv[1] == 'after':
+        time.sleep(2.0)
+
+demo_processes._end_with_parent = ask_slowly
+threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGKILL)).start()
+demo_processes.ChildProcess('child', ['touch', sys.argv[2]], sys.argv[3])
+"""  # the child cannot begin until it has asked the kernel to end it, or 2 s later
 SLEEP = 'import time; print("ready", flush=True); time.sleep(60)'
 HEED = 'import signal; signal.signal(signal.SIGINT, signal.default_int_handler); '
 
@@ -89,3 +106,15 @@ def test_a_child_that_ended_is_reported_with_its_last_words(child):
 def test_a_missing_package_is_named():
     with pytest.raises(DemoFailure, match='no_such_package'):
         demo_processes.executable('no_such_package', 'program')
+
+
+@pytest.mark.parametrize('when', ['before', 'after'])
+def test_a_child_does_not_begin_when_its_parent_is_killed_as_it_is_born(tmp_path, when):
+    """By then the handlers of the parent are its own: what they take is lost in the program."""
+    begun = tmp_path / 'begun'
+    parent = subprocess.run(
+        [sys.executable, '-c', KILLED_MEANWHILE, when, begun, tmp_path / 'log'], check=False,
+        stdout=subprocess.DEVNULL)
+    assert parent.returncode == -signal.SIGKILL
+    time.sleep(3.0)
+    assert not begun.exists()
