@@ -79,25 +79,26 @@ class Record:
 
     def optimal(self):
         """Return the OPTIMAL qualities."""
-        return [m for m, _ in self.quality if m.result.code == ResultCode.OPTIMAL]
+        return [m for m, _ in self.quality if _is_optimal(m)]
 
     def until_answers(self, count, feed=None):
         """Wait for as many more OPTIMAL qualities."""
-        wanted = len(self.optimal()) + count
+        known = len(self.quality)
         self._client.until(
-            lambda: len(self.optimal()) >= wanted, f'{count} answers', feed)
+            lambda: sum(_is_optimal(m) for m, _ in self.quality[known:]) >= count,
+            f'{count} answers', feed)
 
     def until_failure(self, code, feed=None):
         """Wait for a code behind the last answer; return how long after its contacts it came."""
         def found():
-            last = max((i for i, (m, _) in enumerate(self.quality)
-                        if m.result.code == ResultCode.OPTIMAL), default=None)
-            if last is None:
-                return None
-            message, sent_ns = self.quality[last]
-            sensed_ns = stamp_ns(message.header.stamp) or sent_ns
-            return next(((sent_ns - sensed_ns) * 1e-9 for m, sent_ns in self.quality[last:]
-                         if m.result.code == code), None)
+            behind_ns = None
+            for message, sent_ns in reversed(self.quality):
+                if _is_optimal(message):
+                    sensed_ns = stamp_ns(message.header.stamp) or sent_ns
+                    return None if behind_ns is None else (behind_ns - sensed_ns) * 1e-9
+                if message.result.code == code:
+                    behind_ns = sent_ns
+            return None
         return self._client.until(found, f'result code {code} behind an answer', feed)
 
     def check(self, max_age_s):
@@ -112,6 +113,10 @@ class Record:
             if message.result.code != ResultCode.OPTIMAL:
                 assert message.alpha == message.alpha_upper == message.friction_margin == 0.0
                 assert message.result.message
+
+
+def _is_optimal(message):
+    return message.result.code == ResultCode.OPTIMAL
 
 
 def positions(poses):
