@@ -62,7 +62,7 @@ def paragraph(solution: Solution, unique: Uniqueness, limits: tuple[str, ...], s
 
 
 def _largest_first(shares: Array) -> NDArray[np.intp]:
-    """Return the order of shares (k,), the largest first; alike ones stay, as in limited_by."""
+    """Return the order of shares (k,), the largest first; alike ones stay in order."""
     most = shares.max(initial=0.0)
     return np.argsort(-np.where(shares >= (1.0 - ALIKE) * most, most, shares), kind='stable')
 

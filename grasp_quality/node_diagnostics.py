@@ -71,7 +71,8 @@ class Monitor:
 
     def report(self, problems=(), doubts=()):
         """Publish, start counting anew; sentences on ignored inputs, and of what to be warned."""
-        self._changes.end_period()
+        if self._node.active:
+            self._changes.end_period()
         now = time.monotonic()
         elapsed = max(now - self._since, 1e-9)
         values = {

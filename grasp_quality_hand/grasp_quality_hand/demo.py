@@ -144,9 +144,9 @@ def _show(client, children, grasp_object, output):
     drawn = next((record for record in records if record.frames), None)
     if drawn is not None:
         draw_pull(animation, grasp_object, drawn)
-        print(f'Animation: {animation}', flush=True)
+        print(f'Animation of the pull {drawn.way}: {animation}', flush=True)
     else:
-        print('No animation: no pull lasted until a sample of it was heard', flush=True)
+        print('No animation: no sample of a pull was heard', flush=True)
 
 
 def _slip_margins(grasp):

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import time
 
 from geometry_msgs.msg import PoseArray, PoseStamped, Vector3Stamped, WrenchStamped
-from grasp_quality_hand.demo_processes import DemoFailure
+from grasp_quality_hand.demo_processes import DemoFailure, DemoTimeout
 from grasp_quality_msgs.msg import ResultCode
 import numpy as np
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
@@ -126,7 +126,7 @@ class DemoClient:
         self.heard = Heard()
 
     def listen_until(self, condition, deadline, complaint):
-        """Listen until condition() holds; raise DemoFailure(complaint) after deadline seconds."""
+        """Listen until condition() holds; raise DemoTimeout(complaint) after deadline seconds."""
         self._spin_until(self._listener, condition, deadline, complaint)
 
     def _spin_until(self, spinning_node, condition, deadline, complaint):
@@ -134,7 +134,7 @@ class DemoClient:
         end = time.monotonic() + deadline
         while not condition():
             if time.monotonic() > end:
-                raise DemoFailure(f'{complaint} within {deadline:.0f} s')
+                raise DemoTimeout(f'{complaint} within {deadline:.0f} s')
             for child in self._children:
                 child.check()
             spinning_node.executor.spin_once(timeout_sec=0.05)

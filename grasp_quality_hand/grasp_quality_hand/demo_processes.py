@@ -25,6 +25,10 @@ class DemoFailure(RuntimeError):
     """The demo cannot go on; the message says why and what to do."""
 
 
+class DemoTimeout(DemoFailure):
+    """What the demo waited for did not come in time."""
+
+
 def claim_domain():
     """
     Take a free ROS domain for this process and its children, on this machine only.

@@ -5,10 +5,12 @@
 from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
+import time
 from typing import Any
 
 from grasp_quality_hand.demo_follower import Follower
-from grasp_quality_hand.demo_processes import ChildProcess, DemoFailure, executable
+from grasp_quality_hand.demo_processes import (
+    ChildProcess, DemoFailure, DemoTimeout, executable)
 from grasp_quality_hand.demo_questions import force
 from grasp_quality_hand.fetch_dclaw import dclaw_directory, URDF
 from grasp_quality_hand.grasp_objects import GraspObject
@@ -142,8 +144,8 @@ def _pull(client: Any, follower: Follower, grasp_object: GraspObject, cap: float
     try:
         client.listen_until(lambda: follower.blended and follower.still, TAKING_OVER,
                             'the optimised forces did not take over and hold the object still')
-    except DemoFailure:
-        record.silence = client.heard.silence
+    except DemoTimeout:
+        record.silence = max(client.heard.silence, time.monotonic() - client.heard.commanded)
         if record.silence > TOO_RARE:
             return record
         raise

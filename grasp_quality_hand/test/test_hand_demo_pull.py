@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the demo says and draws of pulls on a hand that is not commanded in time."""
 
+import time
 from types import SimpleNamespace
 
 from geometry_msgs.msg import PoseStamped
 from grasp_quality_hand import demo_client, demo_pull
-from grasp_quality_hand.demo_processes import DemoFailure
+from grasp_quality_hand.demo_processes import DemoFailure, DemoTimeout
 from grasp_quality_hand.grasp_objects import OBJECTS
 from grasp_quality_hand.hand_model import build_hand_model
 from grasp_quality_hand.measured_grasp import MeasuredGrasp
@@ -39,13 +40,15 @@ def test_a_pull_with_rare_commands_is_said_to_tell_nothing_of_the_grasp(silence,
     assert ('up to 420 ms apart' in text and 'nothing of the grasp' in text) == busy
 
 
-@pytest.mark.parametrize('silence, busy', [(0.049, False), (0.42, True)])
+@pytest.mark.parametrize('silence, busy, failure', [
+    (0.01, False, DemoTimeout), (0.42, True, DemoTimeout), (0.42, False, DemoFailure)])
 def test_an_object_that_is_not_held_still_is_a_fault_unless_the_machine_was_busy(
-        monkeypatch, silence, busy):
+        monkeypatch, silence, busy, failure):
+    """Nor is it the machine's when a process of the demo has ended, which is no DemoTimeout."""
     def listen_until(condition, deadline, complaint):
         if 'still' in complaint:
-            client.heard.silence = silence
-            raise DemoFailure(complaint)
+            client.heard.silence, client.heard.commanded = silence, time.monotonic()
+            raise failure(complaint)
 
     client = SimpleNamespace(
         heard=demo_client.Heard(silence=3.0), listen_until=listen_until,

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tutorial as its reader follows it: files are saved, commands run, results compared."""
 
+import functools
 import os
 from pathlib import Path
 import re
@@ -46,7 +47,7 @@ def test_every_step_works(tmp_path):
             done = subprocess.run(
                 ['bash', '-euo', 'pipefail', '-c', text], cwd=tmp_path, env=environment(),
                 capture_output=True, text=True, check=False, timeout=START_S,
-                preexec_fn=end_with_parent)
+                preexec_fn=functools.partial(end_with_parent, os.getpid()))
             assert done.returncode == 0, f'{text}\n{done.stdout}\n{done.stderr}'
             printed, ran = done.stdout, ran + 1
         elif kind == 'text':

@@ -51,9 +51,12 @@ def claim_domain():
     raise RuntimeError('no free ROS domain: end another test run first')
 
 
-def end_with_parent():
-    """Ask the kernel for a SIGINT when the test run is gone, so that nothing is left behind."""
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGINT)
+def end_with_parent(parent):
+    """Ask the kernel for a SIGTERM when the test run is gone, so that nothing is left behind."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    if os.getppid() != parent:
+        os._exit(1)
 
 
 class Process:
@@ -67,7 +70,7 @@ class Process:
             self.popen = subprocess.Popen(
                 [str(part) for part in command], stdin=subprocess.DEVNULL, stdout=output,
                 stderr=subprocess.STDOUT, start_new_session=True, env=environment,
-                cwd=cwd, preexec_fn=end_with_parent)
+                cwd=cwd, preexec_fn=functools.partial(end_with_parent, os.getpid()))
 
     def log(self):
         """Return what the process has printed."""

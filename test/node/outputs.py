@@ -69,12 +69,14 @@ class Outputs:
                    and stamp_ns(m.header.stamp) >= begin and condition(m)]
         if not fitting:
             return None
-        forces = _by_stamp(m for m in self.forces if m.forces and (
-            not names or [item.name for item in m.forces] == names))
+        forces = _by_stamp(m for m in self.forces if m.forces)
         wrenches = {name: _by_stamp(heard) for name, heard in self.wrenches.items()}
         for quality in fitting:
             stamp = stamp_ns(quality.header.stamp)
-            if stamp in forces and all(stamp in heard for heard in wrenches.values()):
+            if stamp not in forces or (
+                    names and [item.name for item in forces[stamp].forces] != names):
+                continue
+            if all(stamp in heard for heard in wrenches.values()):
                 return SimpleNamespace(quality=quality, forces=forces[stamp], wrenches={
                     name: heard[stamp] for name, heard in wrenches.items()})
         return None

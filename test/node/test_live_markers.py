@@ -4,7 +4,7 @@
 
 from geometry_msgs.msg import PoseArray
 from grasp_quality_msgs import srv
-from grasp_quality_msgs.msg import ForceMap
+from grasp_quality_msgs.msg import ForceMap, GraspQuality, ResultCode
 from grasps import ANTIPODAL, CIRCLE, pose_array, SOLVER, wrench
 from harness import BEST_EFFORT
 from msg_adapters.force_map import alphas_of
@@ -107,12 +107,18 @@ def test_silence_empties_the_screen(client, feed, markers, maps):
 
 def test_a_load_beyond_the_grasp_empties_the_screen(client, feed, markers):
     client.fresh(markers, drawn(3), 'three cones', feed(CIRCLE))
+    qualities = client.listen(GraspQuality, 'quality')
     markers.clear()  # the answer may come after the screen is empty, which is said once
     client.call(srv.SetTask, 'set_task', feed(CIRCLE), kind=1, task_wrench=wrench(fx=1.0),
                 external_wrench=wrench(fz=-15.1))
     emptied = client.until(lambda: next(filter(clears, markers), None), 'an empty screen',
                            feed(CIRCLE))
     assert len(emptied.markers) == 1
+    client.until(lambda: any(m.result.code == ResultCode.INFEASIBLE for m in qualities),
+                 'INFEASIBLE', feed(CIRCLE))
+    markers.clear()
+    client.fresh(qualities, feed=feed(CIRCLE))
+    assert not any(drawn(3)(message) for message in markers)
     client.call(srv.SetTask, 'set_task', feed(CIRCLE), kind=1, task_wrench=wrench(fz=1.0))
 
 
