@@ -214,6 +214,7 @@ class GraspQualityNode(LifecycleNode):
         was_active, self.active = self.active, False
         self._inputs.clear()
         self._live.forget()
+        self._monitor.forget()
         if was_active:
             stamp = self.get_clock().now().to_msg()
             result = error_result(NotActiveError(reason))

@@ -69,10 +69,13 @@ class Monitor:
         else:
             logger.warning(text)
 
+    def forget(self):
+        """Log nothing more of what was so: the node falls silent."""
+        self._changes.forget()
+
     def report(self, problems=(), doubts=()):
         """Publish, start counting anew; sentences on ignored inputs, and of what to be warned."""
-        if self._node.active:
-            self._changes.end_period()
+        self._changes.end_period()
         now = time.monotonic()
         elapsed = max(now - self._since, 1e-9)
         values = {

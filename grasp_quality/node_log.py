@@ -60,6 +60,11 @@ class Changes:
         self._said.clear()
         self._tell()
 
+    def forget(self) -> None:
+        """Forget what was so: nothing is, until the next note."""
+        self._newest = self._told = None
+        self._said.clear()
+
     def _tell(self) -> None:
         if self._newest is not None and self._newest[0] != self._told:
             self._told = self._newest[0]

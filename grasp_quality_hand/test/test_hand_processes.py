@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What must hold of the demo's child processes and their ROS domain."""
 
+from contextlib import suppress
 import os
+from pathlib import Path
 import signal
 import subprocess
 import sys
@@ -111,10 +113,22 @@ def test_a_missing_package_is_named():
 @pytest.mark.parametrize('when', ['before', 'after'])
 def test_a_child_does_not_begin_when_its_parent_is_killed_as_it_is_born(tmp_path, when):
     """By then the handlers of the parent are its own: what they take is lost in the program."""
-    begun = tmp_path / 'begun'
+    begun, mark = tmp_path / 'begun', f'BORN={tmp_path}'
     parent = subprocess.run(
         [sys.executable, '-c', KILLED_MEANWHILE, when, begun, tmp_path / 'log'], check=False,
-        stdout=subprocess.DEVNULL)
+        stdout=subprocess.DEVNULL, env={**os.environ, 'BORN': str(tmp_path)})
     assert parent.returncode == -signal.SIGKILL
-    time.sleep(3.0)
+    deadline = time.monotonic() + DEADLINE_S
+    while is_alive(mark):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
     assert not begun.exists()
+
+
+def is_alive(mark):
+    """Tell whether a process has this in its environment."""
+    for path in Path('/proc').glob('[0-9]*/environ'):
+        with suppress(OSError):  # not ours to read, or gone
+            if mark.encode() in path.read_bytes().split(b'\0'):
+                return True
+    return False

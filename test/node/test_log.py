@@ -35,6 +35,17 @@ def test_a_code_is_said_when_it_changes():
     assert said == [(1, 'a'), (2, 'c')]
 
 
+def test_what_was_so_before_is_not_said_later():
+    said = []
+    changes = Changes(lambda code, words: said.append(words))
+    for code, words in ((1, 'a'), (2, 'b'), (1, 'gone')):
+        changes.note(code, words)
+    changes.forget()
+    changes.end_period()
+    changes.note(2, 'anew')
+    assert said == ['a', 'b', 'anew']
+
+
 def test_codes_that_take_turns_are_said_once_a_period_and_the_last_one_at_its_end():
     said = []
     changes = Changes(lambda code, words: said.append((code, words)))
